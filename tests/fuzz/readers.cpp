@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -172,9 +173,8 @@ void feedOnce(const FuzzedReader& reader, std::span<const std::uint8_t> bytes, c
 std::span<const FuzzedReader> fuzzedReaders() { return kReaders; }
 
 const FuzzedReader* fuzzedReader(std::string_view name) {
-  for (const FuzzedReader& reader : kReaders)
-    if (reader.name == name) return &reader;
-  return nullptr;
+  const auto* found = std::ranges::find(kReaders, name, &FuzzedReader::name);
+  return found == std::end(kReaders) ? nullptr : found;
 }
 
 void feed(const FuzzedReader& reader, std::span<const std::uint8_t> bytes,

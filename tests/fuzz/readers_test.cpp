@@ -120,25 +120,23 @@ std::vector<Bytes> corpusOf(std::string_view name) {
   return corpus;
 }
 
-class Readers : public testing::TestWithParam<FuzzedReader> {
- protected:
-  TemporaryFolder folder_;
-};
+class Readers : public testing::TestWithParam<FuzzedReader> {};
 
 TEST_P(Readers, SayWhatIsWrongWithEveryMutantAndNothingElse) {
+  const TemporaryFolder folder;
   Random random(GetParam().name.size());
   const std::vector<Bytes> corpus = corpusOf(GetParam().name);
   ASSERT_FALSE(corpus.empty());
   // A corpus that nothing can be read of tests the first line of a reader at most.
-  const auto first = folder_.write(GetParam().file_name, corpus.front());
+  const auto first = folder.write(GetParam().file_name, corpus.front());
   EXPECT_NO_THROW(GetParam().read(first));
-  ASSERT_NO_THROW(feed(GetParam(), {}, folder_.path())) << "of an empty file";
+  ASSERT_NO_THROW(feed(GetParam(), {}, folder.path())) << "of an empty file";
   const int count = mutantCount();
   for (int i = 0; i < count; ++i) {
     const Bytes& seed = corpus[random.below(static_cast<std::uint32_t>(corpus.size()))];
     const Bytes bytes = mutated(seed, random);
     SCOPED_TRACE(i);
-    ASSERT_NO_THROW(feed(GetParam(), bytes, folder_.path()));
+    ASSERT_NO_THROW(feed(GetParam(), bytes, folder.path()));
   }
 }
 

@@ -7,13 +7,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 
 #include "core/base/math.h"
 #include "sessions/io/datasets/dataset_file.h"
 #include "sessions/io/files/atomic_file.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/approach_files.h"
+#include "tests/support/downlink_image.h"
 
 namespace boresight::test {
 namespace {
@@ -48,8 +49,8 @@ Camera cameraOf(CameraModel model, int width, int height, double focal_length_px
 Vector6d offset(double rx_deg, double ry_deg, double rz_deg, double tx_mm, double ty_mm,
                 double tz_mm) {
   Vector6d result;
-  result << rx_deg * kDegree_rad, ry_deg * kDegree_rad, rz_deg * kDegree_rad, tx_mm * 1e-3,
-      ty_mm * 1e-3, tz_mm * 1e-3;
+  result << kDegree_rad * Eigen::Vector3d(rx_deg, ry_deg, rz_deg),
+      1e-3 * Eigen::Vector3d(tx_mm, ty_mm, tz_mm);
   return result;
 }
 
@@ -85,71 +86,33 @@ std::vector<SameBitsCase> allCases() {
 
 /// The largest problem that a flight computer must hold.
 SameBitsCase largestCase() {
-  SameBitsCase largest;
-  largest.name = "largest";
-  largest.station = "bc";
-  largest.camera =
-      cameraOf(CameraModel::kBrownConrady, 2048, 2048, 3150.0, {-0.12, 0.06, 4e-4, -3e-4, 0.0});
-  largest.seed_from_truth = offset(2.0, -1.5, 1.0, 10.0, -8.0, 6.0);
-  largest.extra = {"--profile", "flight"};
-  largest.triangles = 60000;
-  return largest;
+  return {.name = "largest",
+          .station = "bc",
+          .camera = cameraOf(CameraModel::kBrownConrady, 2048, 2048, 3150.0,
+                             {-0.12, 0.06, 4e-4, -3e-4, 0.0}),
+          .seed_from_truth = offset(2.0, -1.5, 1.0, 10.0, -8.0, 6.0),
+          .extra = {"--profile", "flight"},
+          .triangles = 60000};
 }
 
 /// Puts a vertex into the middle of one triangle after the other: the same surface of at most
 /// `triangles` triangles.
-void splitTriangles(sessions::SceneMesh& scene, std::size_t triangles) {
-  for (std::size_t i = 0; scene.faces.size() + 2 <= triangles; ++i) {
-    const auto [a, b, c] = scene.faces[i].vertex;
-    const auto middle = static_cast<std::int32_t>(scene.vertices_in_station_m.size());
+Solid splitTriangles(const sessions::SceneMesh& scene, std::size_t triangles) {
+  Solid split;
+  split.vertices = scene.vertices_in_station_m;
+  split.faces = scene.faces;
+  for (std::size_t i = 0; split.faces.size() + 2 <= triangles; ++i) {
+    const auto [a, b, c] = split.faces[i].vertex;
+    const auto middle = static_cast<std::int32_t>(split.vertices.size());
     const auto at = [&](std::int32_t vertex) {
-      return scene.vertices_in_station_m[static_cast<std::size_t>(vertex)];
+      return split.vertices[static_cast<std::size_t>(vertex)];
     };
-    scene.vertices_in_station_m.emplace_back((at(a) + at(b) + at(c)) / 3.0f);
-    scene.faces[i] = {{a, b, middle}};
-    scene.faces.push_back({{b, c, middle}});
-    scene.faces.push_back({{c, a, middle}});
+    split.vertices.emplace_back((at(a) + at(b) + at(c)) / 3.0f);
+    split.faces[i] = {{a, b, middle}};
+    split.faces.push_back({{b, c, middle}});
+    split.faces.push_back({{c, a, middle}});
   }
-}
-
-void writePly(const fs::path& file, const sessions::SceneMesh& scene) {
-  std::ostringstream text;
-  text.precision(9);
-  text << "ply\nformat ascii 1.0\nelement vertex " << scene.vertices_in_station_m.size()
-       << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-       << scene.faces.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const Eigen::Vector3f& point : scene.vertices_in_station_m)
-    text << point.x() << ' ' << point.y() << ' ' << point.z() << '\n';
-  for (const Face& face : scene.faces)
-    text << "3 " << face.vertex[0] << ' ' << face.vertex[1] << ' ' << face.vertex[2] << '\n';
-  sessions::writeFileAtomically(file, text.str());
-}
-
-/// What `seen` would have looked like to `camera`: bilinear, 0 beyond its border.
-std::vector<std::uint8_t> resample(const sessions::GrayImage& seen, const Camera& seen_by,
-                                   const Camera& camera) {
-  std::vector<std::uint8_t> pixels;
-  for (int y = 0; y < camera.height; ++y) {
-    for (int x = 0; x < camera.width; ++x) {
-      Eigen::Vector3d ray;
-      Eigen::Vector2d at;
-      double value = 0.0;
-      if (unproject(camera, {x, y}, ray) && project(seen_by, ray, at) && at.minCoeff() >= 0.0 &&
-          at.x() < seen.width - 1 && at.y() < seen.height - 1) {
-        const int left = static_cast<int>(at.x());
-        const int top = static_cast<int>(at.y());
-        const double u = at.x() - left;
-        const double v = at.y() - top;
-        const auto pixel = [&](int dx, int dy) {
-          return seen.view().at(left + dx, top + dy) * 1.0;
-        };
-        value = (1.0 - v) * ((1.0 - u) * pixel(0, 0) + u * pixel(1, 0)) +
-                v * ((1.0 - u) * pixel(0, 1) + u * pixel(1, 1));
-      }
-      pixels.push_back(static_cast<std::uint8_t>(value + 0.5));
-    }
-  }
-  return pixels;
+  return split;
 }
 
 /// A stripe across the image that is not trusted.
@@ -163,9 +126,7 @@ void writeMask(const fs::path& file, const Camera& camera) {
 
 /// Throws unless whs ran to its end: converged, or not.
 ProgramRun mustRun(const std::string& command, const Arguments& arguments) {
-  Arguments all = {command};
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  ProgramRun run = runWhs(all);
+  ProgramRun run = runWhs(with({command}, arguments));
   if (run.exit_code != 0 && run.exit_code != 4)
     throw std::runtime_error("whs " + command + " ended with " + std::to_string(run.exit_code) +
                              ": " + run.err);
@@ -181,13 +142,8 @@ bool writeExpectation(const fs::path& folder, const Arguments& arguments) {
   const ProgramRun run = mustRun("localize", arguments);
   const std::size_t at = run.out.rfind("digest ");
   if (at == std::string::npos) throw std::runtime_error("whs localize printed no digest");
-  Arguments problem = arguments;
-  for (const auto& [option, file] :
-       {std::pair{"--out", "problem.bin"}, {"--image-out", "image.pgm"}}) {
-    problem.emplace_back(option);
-    problem.emplace_back(folder / file);
-  }
-  mustRun("problem", problem);
+  mustRun("problem",
+          with(arguments, {"--out", folder / "problem.bin", "--image-out", folder / "image.pgm"}));
   std::string lines;
   for (const std::string& argument : arguments) lines += (lines.empty() ? "" : "\n") + argument;
   writeText(folder / "arguments", lines);
@@ -198,17 +154,19 @@ bool writeExpectation(const fs::path& folder, const Arguments& arguments) {
 
 bool writeCase(const SameBitsCase& same_bits_case, const fs::path& folder) {
   fs::create_directories(folder);
-  ExampleCase example(same_bits_case.station);
+  const ExampleCase example(same_bits_case.station);
   fs::path mesh = exampleFolder() / same_bits_case.station / "model.ply";
   if (same_bits_case.triangles > 0) {
-    splitTriangles(example.scene, same_bits_case.triangles);
     mesh = folder / "model.ply";
-    writePly(mesh, example.scene);
+    sessions::writeFileAtomically(mesh,
+                                  plyOf(splitTriangles(example.scene, same_bits_case.triangles)));
   }
   sessions::writeCamera(folder / "camera.json", same_bits_case.camera);
-  sessions::writePng(folder / "image.png",
-                     resample(example.image, example.camera, same_bits_case.camera),
-                     same_bits_case.camera.width, same_bits_case.camera.height, 1);
+  std::vector<std::uint8_t> pixels;
+  for (const std::uint16_t sample : seenBy(same_bits_case.camera, example))
+    pixels.push_back(static_cast<std::uint8_t>(std::lround(sample * 255.0 / 4095.0)));
+  sessions::writePng(folder / "image.png", pixels, same_bits_case.camera.width,
+                     same_bits_case.camera.height, 1);
   const Pose seed = displacedAboutPivot(example.truth.camera_from_station,
                                         same_bits_case.seed_from_truth, Eigen::Vector3d::Zero());
   sessions::writePose(folder / "seed.json", seed, example.seed.uncertainty);

@@ -15,28 +15,9 @@ namespace {
 
 constexpr int kSide = 160;
 
-/// Directed edges and a meter with their memory.
-class ContourEvidenceTest : public testing::Test {
- protected:
-  ContourEvidenceTest() : direction_(kSide * kSide, DirectedEdges::kNone), block_(1 << 20) {
-    edges_.direction = direction_;
-    edges_.width = edges_.height = kSide;
-    Arena arena(block_);
-    meter_.create(direction_.size(), arena);
-  }
-  std::vector<std::uint8_t> direction_;
-  std::vector<std::byte> block_;
-  DirectedEdges edges_;
-  ContourEvidenceMeter meter_;
-};
-
-TEST_F(ContourEvidenceTest, NoPlaces_GiveZero) {
-  meter_.clear();
-  meter_.begin(edges_);
-  const ContourEvidence evidence = meter_.measure(80.0);
-  EXPECT_EQ(evidence.places, 0);
-  EXPECT_EQ(evidence.strongest_nats(), 0.0);
-  EXPECT_EQ(evidence.weakest_nats(), 0.0);
+bool isKnown(const DirectedEdges& edges, int x, int y) {
+  return x >= 0 && y >= 0 && x < edges.width && y < edges.height &&
+         edges.at(x, y) != DirectedEdges::kUnseen;
 }
 
 /// Interval of a distance: up to 1.2, 2.3 and 3.6 px, and beyond.
@@ -58,9 +39,7 @@ PlaceEvidence placeByDefinition(const EvidencePlace& place, const DirectedEdges&
   for (int i = 0; i < 144; ++i) {
     const int x = place.x + sampleOffset(i % 12);
     const int y = place.y + sampleOffset(i / 12);
-    if (x < 0 || y < 0 || x >= edges.width || y >= edges.height ||
-        edges.at(x, y) == DirectedEdges::kUnseen)
-      continue;
+    if (!isKnown(edges, x, y)) continue;
     around[intervalOf(distanceAt(x, y))] += 1.0;
     all += 1.0;
   }
@@ -75,34 +54,47 @@ PlaceEvidence placeByDefinition(const EvidencePlace& place, const DirectedEdges&
   return evidence;
 }
 
-/// An image that is small enough for its distances to be kept, and one that is not.
-TEST_F(ContourEvidenceTest, RandomEdgesAndPlaces_MatchTheDefinition) {
+/// No places; then places in an image that is small enough for its distances to be kept, and in one
+/// that is not.
+TEST(ContourEvidence, RandomEdgesAndPlaces_MatchTheDefinition) {
+  std::vector<std::uint8_t> direction(kSide * kSide, DirectedEdges::kNone);
+  DirectedEdges edges{direction, kSide, kSide};
+  std::vector<std::byte> block(1 << 20);
+  Arena arena(block);
+  ContourEvidenceMeter meter;
+  meter.create(direction.size(), arena);
+  meter.clear();
+  meter.begin(edges);
+  const ContourEvidence none = meter.measure(80.0);
+  EXPECT_EQ(none.places, 0);
+  EXPECT_EQ(none.strongest_nats(), 0.0);
+  EXPECT_EQ(none.weakest_nats(), 0.0);
   Random random(9);
   const auto below = [&random](int end) {
     return static_cast<int>(random.below(static_cast<std::uint32_t>(end)));
   };
   for (int trial = 0; trial < 8; ++trial) {
-    edges_.width = trial % 2 == 0 ? 61 : 121;
-    edges_.height = trial % 2 == 0 ? 43 : 90;
-    for (auto& direction : direction_)
-      direction = static_cast<std::uint8_t>(below(12) == 0 ? below(8) : DirectedEdges::kNone);
+    edges.width = trial % 2 == 0 ? 61 : 121;
+    edges.height = trial % 2 == 0 ? 43 : 90;
+    for (std::uint8_t& pixel : direction)
+      pixel = static_cast<std::uint8_t>(below(12) == 0 ? below(8) : DirectedEdges::kNone);
     for (int y = 20; y < 30; ++y)
       for (int x = 10; x < 30; ++x)
-        direction_[static_cast<std::size_t>(y * edges_.width + x)] = DirectedEdges::kUnseen;
+        direction[static_cast<std::size_t>(y * edges.width + x)] = DirectedEdges::kUnseen;
     std::vector<EvidencePlace> places;
     for (int i = 0; i < 300; ++i)
-      places.push_back({static_cast<std::int16_t>(below(edges_.width + 6) - 3),
-                        static_cast<std::int16_t>(below(edges_.height + 6) - 3),
+      places.push_back({static_cast<std::int16_t>(below(edges.width + 6) - 3),
+                        static_cast<std::int16_t>(below(edges.height + 6) - 3),
                         static_cast<std::uint8_t>(below(8)), below(3) == 0});
     // Corners of the image, and places of which one quadrant has few.
     places.push_back({0, 0, 1, true});
-    places.push_back({static_cast<std::int16_t>(edges_.width - 1),
-                      static_cast<std::int16_t>(edges_.height - 1), 7, false});
-    meter_.begin(edges_);
+    places.push_back({static_cast<std::int16_t>(edges.width - 1),
+                      static_cast<std::int16_t>(edges.height - 1), 7, false});
+    meter.begin(edges);
     for (const double size_px : {30.0, 170.0}) {
-      meter_.clear(2.5);
-      for (const EvidencePlace& place : places) meter_.add(place);
-      const ContourEvidence measured = meter_.measure(size_px);
+      meter.clear(2.5);
+      for (const EvidencePlace& place : places) meter.add(place);
+      const ContourEvidence measured = meter.measure(size_px);
       double middle_x = 0.0;
       double middle_y = 0.0;
       for (const EvidencePlace& place : places) {
@@ -110,13 +102,11 @@ TEST_F(ContourEvidenceTest, RandomEdgesAndPlaces_MatchTheDefinition) {
         middle_y += place.y / static_cast<double>(places.size());
       }
       ContourEvidence sum;
-      std::vector<std::uint8_t> distance(direction_.size());
+      std::vector<std::uint8_t> distance(direction.size());
       for (const EvidencePlace& place : places) {
-        if (place.x < 0 || place.y < 0 || place.x >= edges_.width || place.y >= edges_.height ||
-            edges_.at(place.x, place.y) == DirectedEdges::kUnseen)
-          continue;
-        distanceToDirection(edges_, place.direction, distance);
-        const PlaceEvidence of = placeByDefinition(place, edges_, distance, 0.2 * size_px);
+        if (!isKnown(edges, place.x, place.y)) continue;
+        distanceToDirection(edges, place.direction, distance);
+        const PlaceEvidence of = placeByDefinition(place, edges, distance, 0.2 * size_px);
         const std::size_t quadrant =
             (place.x > middle_x ? 1u : 0u) + (place.y > middle_y ? 2u : 0u);
         ++sum.places;

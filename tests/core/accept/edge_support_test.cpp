@@ -14,20 +14,13 @@ namespace {
 
 constexpr int kDisplacements[4][2] = {{11, 0}, {0, 11}, {-11, 0}, {0, -11}};
 
-/// The test edges of a picture with their memory.
-struct Edges {
-  std::vector<std::byte> memory;
-  EdgeMap map;
-  Edges(const Picture& picture, const BitImage* ignore) : memory(std::size_t{8} << 20) {
-    Arena arena(memory);
-    EXPECT_EQ(detectEdges(picture.view(), ignore, {}, arena, map), Status::kOk);
-  }
-};
-
 EdgeSupport supportAt(const Case& scene, const Pose& pose, int level = 0) {
-  const Edges edges(*scene.picture, scene.ignore);
+  std::vector<std::byte> memory(std::size_t{8} << 20);
+  Arena arena(memory);
+  EdgeMap edges;
+  EXPECT_EQ(detectEdges(scene.picture->view(), scene.ignore, {}, arena, edges), Status::kOk);
   const Rendering rendering = renderEdges(scene.solid, cameraAtLevel(scene.camera, level), pose);
-  return measureEdgeSupport(rendering.edges, level, edges.map, scene.picture->view(), scene.ignore);
+  return measureEdgeSupport(rendering.edges, level, edges, scene.picture->view(), scene.ignore);
 }
 
 TEST(EdgeSupport, IsHighAtTheTruthAndLowElsewhere) {
@@ -51,13 +44,12 @@ TEST(EdgeSupport, CoverageCountsRenderedEdgePixels) {
   Case scene = stationCase(1);
   Mask mask(512, 512);
   mask.fill(90, 110, 260, 300);
+  const Pose pose = displacedSeed(scene.truth, scene.uncertainty, 0.02, 3);
   for (const int level : {0, 1}) {
+    const Rendering rendering = renderEdges(scene.solid, cameraAtLevel(scene.camera, level), pose);
+    const EdgeRender& render = rendering.edges;
     for (const bool masked : {false, true}) {
       scene.ignore = masked ? &mask.bits : nullptr;
-      const Pose pose = displacedSeed(scene.truth, scene.uncertainty, 0.02, 3);
-      const Rendering rendering =
-          renderEdges(scene.solid, cameraAtLevel(scene.camera, level), pose);
-      const EdgeRender& render = rendering.edges;
       const int stride = level == 0 ? 2 : 1;
       const int places = (render.pixel_count + stride - 1) / stride;
       ASSERT_GT(render.pixel_count, (stride - 1) * 3000);
@@ -98,56 +90,48 @@ TEST(EdgeSupport, CoverageCountsRenderedEdgePixels) {
 }
 
 /// Random bits, of a width that ends within a word. Memory before and after the edges is set.
-struct RandomMaps {
-  static constexpr int kWidth = 190;
-  static constexpr int kHeight = 37;
-  static constexpr int kAround = 16;  ///< rows
-  Mask around{kWidth, kHeight + 2 * kAround};
-  Mask edges{kWidth, kHeight};
-  Mask mask{kWidth, kHeight};
-  Mask test_edges{kWidth, kHeight};
-
-  explicit RandomMaps(std::uint64_t seed) {
+TEST(EdgeSupport, Explanation_EqualsABruteForceCount) {
+  constexpr int kWidth = 190;
+  constexpr int kHeight = 37;
+  constexpr int kAroundRows = 16;
+  const Picture flat = flatPicture(kWidth, kHeight, 9);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    around.fill(0, 0, kWidth, kHeight + 2 * kAround);
-    edges.bits.words = around.bits.words.subspan(
-        static_cast<std::size_t>(kAround * edges.bits.words_per_row), edges.bits.words.size());
-    edges.bits.clear();
+    Mask around(kWidth, kHeight + 2 * kAroundRows);
+    Mask rendered(kWidth, kHeight);
+    Mask mask(kWidth, kHeight);
+    Mask test_edges(kWidth, kHeight);
+    around.fill(0, 0, kWidth, kHeight + 2 * kAroundRows);
+    rendered.bits.words = around.bits.words.subspan(
+        static_cast<std::size_t>(kAroundRows * rendered.bits.words_per_row),
+        rendered.bits.words.size());
+    rendered.bits.clear();
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        if (random.below(12) == 0) edges.bits.set(x, y);
+        if (random.below(12) == 0) rendered.bits.set(x, y);
         if (random.below(3) != 0) mask.bits.set(x, y);
         if (random.below(4) == 0) test_edges.bits.set(x, y);
       }
     }
-  }
-};
-
-TEST(EdgeSupport, Explanation_EqualsABruteForceCount) {
-  const Picture flat = flatPicture(RandomMaps::kWidth, RandomMaps::kHeight, 9);
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const RandomMaps maps(seed);
     EdgeRender render;
-    render.edges = maps.edges.bits;
-    render.mask = maps.mask.bits;
-    std::vector<std::int32_t> row_begin(RandomMaps::kHeight + 1, 0);  // no pixel
+    render.edges = rendered.bits;
+    render.mask = mask.bits;
+    std::vector<std::int32_t> row_begin(kHeight + 1, 0);  // no pixel
     render.row_begin = row_begin;
     EdgeMap edges;
-    edges.level[2] = maps.test_edges.bits;
+    edges.level[2] = test_edges.bits;
     const auto nearEdge = [&](int x, int y) {
-      for (int v = y - 1; v <= y + 1; ++v) {
-        for (int u = x - 1; u <= x + 1; ++u) {
-          if (maps.edges.bits.contains(u, v) && maps.edges.bits.get(u, v)) return 1;
-        }
-      }
+      for (int v = y - 1; v <= y + 1; ++v)
+        for (int u = x - 1; u <= x + 1; ++u)
+          if (rendered.bits.contains(u, v) && rendered.bits.get(u, v)) return 1;
       return 0;
     };
     int seen = 0;
     int explained = 0;
     int displaced = 0;
-    for (int y = 0; y < RandomMaps::kHeight; ++y) {
-      for (int x = 0; x < RandomMaps::kWidth; ++x) {
-        if (!maps.mask.bits.get(x, y) || !maps.test_edges.bits.get(x, y)) continue;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        if (!mask.bits.get(x, y) || !test_edges.bits.get(x, y)) continue;
         ++seen;
         explained += nearEdge(x, y);
         for (const auto& by : kDisplacements) displaced += nearEdge(x - by[0], y - by[1]);
@@ -166,17 +150,19 @@ TEST(EdgeSupport, Explanation_EqualsABruteForceCount) {
 TEST(EdgeSupport, DisplacedBeyondTheImage_IsIgnoredAsItsBorder) {
   const Picture flat = flatPicture(100, 60, 9);
   const EdgeSearch search(kSupportDerivativeSigma_px);
+  struct Place {
+    std::int16_t x, y;
+    int border_x, border_y;
+  };
+  const Place places[] = {{97, 30, 99, 30}, {50, 57, 50, 59}, {2, 30, 0, 30}, {50, 2, 50, 0}};
   for (int direction = 0; direction < 4; ++direction)
     for (const bool ignored : {false, true}) {
       Mask mask(100, 60);
-      const int x = direction == 0 ? 97 : direction == 2 ? 2 : 50;
-      const int y = direction == 1 ? 57 : direction == 3 ? 2 : 30;
-      const int border_x = direction == 0 ? 99 : direction == 2 ? 0 : 50;
-      const int border_y = direction == 1 ? 59 : direction == 3 ? 0 : 30;
-      if (ignored) mask.fill(border_x, border_y, border_x + 1, border_y + 1);
+      const Place& place = places[direction];
+      if (ignored) mask.bits.set(place.border_x, place.border_y);
       EdgePixel pixel;
-      pixel.x = static_cast<std::int16_t>(x);
-      pixel.y = static_cast<std::int16_t>(y);
+      pixel.x = place.x;
+      pixel.y = place.y;
       pixel.normal_x = 127;
       std::int32_t looked = 0;
       std::int32_t covered = 0;
@@ -186,27 +172,15 @@ TEST(EdgeSupport, DisplacedBeyondTheImage_IsIgnoredAsItsBorder) {
     }
 }
 
-TEST(EdgeSupport, FlatImageOrNoCounts_GiveNoSupport) {
-  const EdgeSupport none;
-  EXPECT_EQ(none.share(), 0.0);
-  Case scene = stationCase(1);
-  const Picture flat = flatPicture(512, 512, 50);
-  scene.picture = &flat;
-  const EdgeSupport support = supportAt(scene, scene.truth);
-  EXPECT_EQ(support.covered, 0);
-  EXPECT_EQ(support.seen, 0);
-  EXPECT_EQ(support.share(), 0.0);
-}
-
 TEST(EdgeSupport, ShareIsTheExcessOverChance) {
-  EdgeSupport support;
-  support.rendered = 10;
-  support.covered = 6;
-  support.displaced = 8;
-  support.displaced_covered = 2;
-  support.seen = 20;
-  support.explained = 10;
-  support.displaced_explained = 16;
+  EXPECT_EQ(EdgeSupport().share(), 0.0);
+  EdgeSupport support{.rendered = 10,
+                      .covered = 6,
+                      .displaced = 8,
+                      .displaced_covered = 2,
+                      .seen = 20,
+                      .explained = 10,
+                      .displaced_explained = 16};
   EXPECT_DOUBLE_EQ(support.chanceCoverage(), 0.25);
   EXPECT_DOUBLE_EQ(support.chanceExplanation(), 0.2);
   EXPECT_NEAR(support.share(), (2.0 * (0.35 / 0.75) + 0.3 / 0.8) / 3.0, 1e-12);

@@ -10,12 +10,13 @@ namespace boresight {
 namespace {
 
 /// Contours with a share of what could be expected, and edge support.
-PoseEvidence evidenceWith(double share, double region_nats, double edge_support) {
+PoseEvidence evidenceWith(double share, double region_nats, double expected_nats,
+                          double edge_support) {
   PoseEvidence evidence;
   for (ContourEvidence& view : evidence.contours) {
     view.places = view.outline_places = 500;
-    view.expected_nats = view.outline_expected_nats = 0.4;
-    view.edges_nats = view.outline_nats = 0.4 * share;
+    view.expected_nats = view.outline_expected_nats = expected_nats;
+    view.edges_nats = view.outline_nats = share * expected_nats;
   }
   evidence.region.nats = region_nats;
   evidence.edge_support = edge_support;
@@ -24,16 +25,14 @@ PoseEvidence evidenceWith(double share, double region_nats, double edge_support)
 
 /// The logistic function of resources/evidence/trust.md, within its limits and beyond them.
 TEST(PoseEvidence, Probability_IsTheFittedLogisticFunction) {
+  EXPECT_LT(PoseEvidence().probability(), 0.01);
+  EXPECT_GT(evidenceWith(1.5, 1.0, 0.4, 0.6).probability(), 0.95);
   for (const double share : {-0.5, 0.4, 0.9, 1.4, 1.6})
     for (const double expected_nats : {0.1, 0.4, 3.0})
       for (const double region_nats : {-0.8, 0.4, 1.2})
         for (const double support : {0.0, 0.01, 0.03, 0.3, 0.6}) {
-          PoseEvidence evidence;
-          ContourEvidence& finest = evidence.contours[1];
-          finest.expected_nats = finest.outline_expected_nats = expected_nats;
-          finest.edges_nats = finest.outline_nats = share * expected_nats;
-          evidence.region.nats = region_nats;
-          evidence.edge_support = support;
+          PoseEvidence evidence = evidenceWith(share, region_nats, expected_nats, support);
+          evidence.contours[0] = {};  // only the finest count
           const double log_support =
               std::log(std::max(0.02, support) / std::max(0.15, expected_nats));
           const double sum = -3.49 + 3.78 * std::min(1.5, share) + 0.98 * region_nats +
@@ -42,13 +41,8 @@ TEST(PoseEvidence, Probability_IsTheFittedLogisticFunction) {
         }
 }
 
-TEST(PoseEvidence, NothingMeasured_IsImprobable) {
-  EXPECT_LT(PoseEvidence().probability(), 0.01);
-  EXPECT_GT(evidenceWith(1.5, 1.0, 0.6).probability(), 0.95);
-}
-
 TEST(PoseEvidence, ScoreAndMeans_FollowTheirDefinitions) {
-  PoseEvidence evidence = evidenceWith(1.0, 0.0, 0.7);
+  PoseEvidence evidence = evidenceWith(1.0, 0.0, 0.4, 0.7);
   evidence.contours[0].outline_nats = 0.8;
   evidence.contours[0].quadrant_places = {500, 0, 0, 0};
   evidence.contours[0].quadrant_nats = {-0.6, 0.0, 0.0, 0.0};

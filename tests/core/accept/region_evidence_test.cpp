@@ -14,53 +14,17 @@
 namespace boresight {
 namespace {
 
-/// A plate in front of the camera, and images that are painted by its mask.
-class RegionEvidenceTest : public testing::Test {
- protected:
-  RegionEvidenceTest() : block_(1 << 18) {
-    Arena arena(block_);
-    EXPECT_EQ(meter_.create(arena), Status::kOk);
-    solid_.addBox(0.0, 0.0, 0.06, 0.04, 0.3, -0.005, 0.005, 0.5);
-    pose_ = test::truthPose();
-    pose_.rotation = Eigen::Quaterniond::Identity();
-  }
-  /// Gray values of the plate at the pose and of its surroundings, each with its noise.
-  void paint(int inside, int outside, int noise) {
-    const test::Rendering render = test::renderEdges(solid_, camera_, pose_);
-    Random random(4);
-    gray_.resize(static_cast<std::size_t>(camera_.width * camera_.height));
-    for (int y = 0; y < camera_.height; ++y)
-      for (int x = 0; x < camera_.width; ++x) {
-        const int level = render.edges.mask.get(x, y) ? inside : outside;
-        gray_[static_cast<std::size_t>(y * camera_.width + x)] = static_cast<std::uint8_t>(
-            level + static_cast<int>(random.below(static_cast<std::uint32_t>(2 * noise + 1))) -
-            noise);
-      }
-  }
-  RegionEvidence measure(double shift_m, const BitImage* ignore = nullptr) {
-    Pose moved = pose_;
-    moved.translation_m.x() += shift_m;
-    const test::Rendering render = test::renderEdges(solid_, camera_, moved);
-    return meter_.measure(render.edges, 0,
-                          {gray_.data(), camera_.width, camera_.height, camera_.width}, ignore);
-  }
-
-  std::vector<std::byte> block_;
-  RegionEvidenceMeter meter_;
-  test::Solid solid_;
-  Camera camera_ = test::pinholeCamera();
-  Pose pose_;
-  std::vector<std::uint8_t> gray_;
-};
-
-TEST_F(RegionEvidenceTest, SidesThatDiffer_SupportTheOutline) {
-  paint(170, 60, 20);
-  const RegionEvidence right = measure(0.0);
-  EXPECT_GT(right.lines, 200);
-  EXPECT_GT(right.nats, 1.0);
-  EXPECT_GT(right.separatedShare(), 0.95);
-  const RegionEvidence wrong = measure(0.012);
-  EXPECT_LT(wrong.nats, 0.6 * right.nats);
+/// Gray values of a plate and of its surroundings, each with its noise.
+test::Picture paintedBy(const EdgeRender& plate, int inside, int outside, int noise) {
+  Random random(4);
+  test::Picture picture{plate.mask.width, plate.mask.height, {}};
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const int level = plate.mask.get(x, y) ? inside : outside;
+      const auto off = static_cast<int>(random.below(static_cast<std::uint32_t>(2 * noise + 1)));
+      picture.gray.push_back(static_cast<std::uint8_t>(level + off - noise));
+    }
+  return picture;
 }
 
 /// The evidence by its definition, in the order of the formulas of RegionEvidence.
@@ -165,26 +129,33 @@ class PlainRegions {
 
 /// A plate, one so small and one so large that the length of the lines is limited; masks that leave
 /// all lines, half of them, and about the least number.
-TEST_F(RegionEvidenceTest, PlatesAndMasks_MatchTheDefinition) {
+TEST(RegionEvidence, PlatesAndMasks_MatchTheDefinition) {
+  std::vector<std::byte> block(1 << 18);
+  Arena arena(block);
+  RegionEvidenceMeter meter;
+  ASSERT_EQ(meter.create(arena), Status::kOk);
+  const Camera camera = test::pinholeCamera();
+  const Pose pose{Eigen::Quaterniond::Identity(), test::truthPose().translation_m};
+  Pose moved = pose;
+  moved.translation_m.x() += 0.002;
   for (const Eigen::Vector2d& half_m : {Eigen::Vector2d(0.06, 0.04), {0.012, 0.008}, {0.4, 0.05}})
     for (const int level : {0, 1}) {
-      solid_ = {};
-      solid_.addBox(0.0, 0.0, half_m.x(), half_m.y(), 0.02, -0.005, 0.005, 0.5);
-      paint(level == 0 ? 200 : 140, level == 0 ? 50 : 110, 50);
-      Pose moved = pose_;
-      moved.translation_m.x() += 0.002;
-      const test::Rendering render =
-          test::renderEdges(solid_, cameraAtLevel(camera_, level), moved);
-      const ImageView image{gray_.data(), camera_.width, camera_.height, camera_.width};
+      test::Solid solid;
+      solid.addBox(0.0, 0.0, half_m.x(), half_m.y(), 0.02, -0.005, 0.005, 0.5);
+      const test::Picture picture = paintedBy(test::renderEdges(solid, camera, pose).edges,
+                                              level == 0 ? 200 : 140, level == 0 ? 50 : 110, 50);
+      const test::Rendering render = test::renderEdges(solid, cameraAtLevel(camera, level), moved);
       const int left = std::max(0, static_cast<int>(260.0 - 2000.0 * half_m.x()));
       for (const int end : {512, 256, left + 13, left + 12, left + 11, left + 10, left + 9}) {
-        test::Mask mask(camera_.width, camera_.height);
+        test::Mask mask(camera.width, camera.height);
         mask.fill(end, 0, 512, 512);
         const BitImage* const ignore = end == 512 ? nullptr : &mask.bits;
-        const RegionEvidence plain = PlainRegions(render.edges, level, image, ignore).evidence();
-        const RegionEvidence measured = meter_.measure(render.edges, level, image, ignore);
+        const RegionEvidence plain =
+            PlainRegions(render.edges, level, picture.view(), ignore).evidence();
+        const RegionEvidence measured = meter.measure(render.edges, level, picture.view(), ignore);
         EXPECT_EQ(measured.lines, plain.lines) << half_m.x() << ' ' << level << ' ' << end;
         EXPECT_EQ(measured.separated, plain.separated);
+        EXPECT_DOUBLE_EQ(measured.separatedShare() * plain.lines, plain.separated);
         EXPECT_NEAR(measured.nats, plain.nats, 1e-9);
       }
     }

@@ -34,6 +34,16 @@ struct Include {
   bool quoted = false;
 };
 
+/// Headers and sources of core/.
+std::vector<fs::path> filesOfCore() {
+  std::vector<fs::path> files;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(BORESIGHT_SOURCE_DIR) / "core"))
+    if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
+      files.push_back(entry.path());
+  return files;
+}
+
 std::vector<Include> includesOf(const fs::path& file) {
   static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::vector<Include> includes;
@@ -44,17 +54,6 @@ std::vector<Include> includesOf(const fs::path& file) {
       includes.push_back({file, match[2].str(), match[1].str() == "\""});
   }
   return includes;
-}
-
-std::vector<Include> includesOfCore(const fs::path& source_dir) {
-  std::vector<Include> all;
-  for (const auto& entry : fs::recursive_directory_iterator(source_dir / "core")) {
-    const std::string extension = entry.path().extension().string();
-    if (extension != ".h" && extension != ".cpp") continue;
-    const auto includes = includesOf(entry.path());
-    all.insert(all.end(), includes.begin(), includes.end());
-  }
-  return all;
 }
 
 std::ptrdiff_t stageNumber(const std::string& folder) {
@@ -103,22 +102,20 @@ bool callsTheCLibrary(const std::string& text) {
 }
 
 TEST(Layering, NoStageIncludesALaterStageOrAForeignHeader) {
-  const fs::path source_dir = BORESIGHT_SOURCE_DIR;
-  const std::vector<Include> includes = includesOfCore(source_dir);
-  EXPECT_GT(includes.size(), 50u) << "the sources were not found in " << source_dir;
-  for (const Include& include : includes) {
-    const fs::path relative = fs::relative(include.file, source_dir / "core");
-    const std::string problem = fault(relative.begin()->string(), include);
-    EXPECT_EQ(problem, "") << relative;
+  std::size_t count = 0;
+  for (const fs::path& file : filesOfCore()) {
+    const fs::path relative = fs::relative(file, fs::path(BORESIGHT_SOURCE_DIR) / "core");
+    for (const Include& include : includesOf(file)) {
+      EXPECT_EQ(fault(relative.begin()->string(), include), "") << relative;
+      ++count;
+    }
   }
+  EXPECT_GT(count, 50u) << "the sources were not found in " << BORESIGHT_SOURCE_DIR;
 }
 
 TEST(Layering, ElementaryFunctionsInCore_AreCoresOwn) {
-  const fs::path source_dir = BORESIGHT_SOURCE_DIR;
-  for (const auto& entry : fs::recursive_directory_iterator(source_dir / "core"))
-    if (entry.path().extension() == ".cpp") {
-      EXPECT_FALSE(callsTheCLibrary(textOf(entry.path()))) << entry.path();
-    }
+  for (const fs::path& file : filesOfCore())
+    EXPECT_FALSE(file.extension() == ".cpp" && callsTheCLibrary(textOf(file))) << file;
   EXPECT_TRUE(callsTheCLibrary("double a = std::sin(x);"));
   EXPECT_TRUE(callsTheCLibrary("#include <cmath>\ndouble a = exp(x);"));
   EXPECT_FALSE(callsTheCLibrary("#include \"core/base/math.h\"\ndouble a = exp(x);"));

@@ -120,8 +120,7 @@ TEST(ArcTangent, IsAccurateEverywhere) {
   for (int k = 0; k <= 16; ++k)  // where the table changes its entry
     for (const double x : {k / 16.0, std::nextafter(k / 16.0, 2.0), std::nextafter(k / 16.0, -1.0)})
       arguments.push_back(x);
-  arguments.push_back(kInfinity);
-  arguments.push_back(-kInfinity);
+  arguments.insert(arguments.end(), {kInfinity, -kInfinity});
   EXPECT_LT(worstError(arguments, atan, [](long double x) { return std::atan(x); }), kAllowed);
   EXPECT_TRUE(std::isnan(atan(kNan)));
 }
@@ -144,8 +143,7 @@ TEST(ArcTangent2, IsAccurateInAllDirections) {
     const double y = size * random.uniform(-1.0, 1.0) * std::pow(10.0, random.uniform(-20.0, 0.0));
     const long double expected =
         std::atan2(static_cast<long double>(y), static_cast<long double>(x));
-    const long double error = std::abs(atan2(y, x) - expected);
-    worst = std::max(worst, error / std::max(1.0L, std::abs(expected)));
+    worst = std::max(worst, std::abs(atan2(y, x) - expected) / std::max(1.0L, std::abs(expected)));
   }
   EXPECT_LT(worst, kAllowed);
 }
@@ -199,8 +197,8 @@ TEST(NaturalLogarithm, IsAccurateForEveryPositiveNumber) {
   Random random(23);
   for (int i = 0; i < 50000; ++i)
     arguments.push_back(std::pow(10.0, random.uniform(-323.0, 308.0)));
-  arguments.push_back(std::numeric_limits<double>::denorm_min());
-  arguments.push_back(std::numeric_limits<double>::max());
+  arguments.insert(arguments.end(),
+                   {std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()});
   EXPECT_LT(worstError(arguments, log, exact), kAllowed);
   for (int i = 1; i < 1000; ++i) {  // next to 1 the logarithm is small and keeps its digits
     const double x = 1.0 + i * 1e-12;
@@ -215,12 +213,10 @@ TEST(NaturalLogarithm, IsAccurateForEveryPositiveNumber) {
 }
 
 TEST(IsFinite, KnowsInfinitiesAndNans) {
-  EXPECT_TRUE(isFinite(0.0));
-  EXPECT_TRUE(isFinite(std::numeric_limits<double>::max()));
-  EXPECT_TRUE(isFinite(std::numeric_limits<double>::denorm_min()));
-  EXPECT_FALSE(isFinite(kInfinity));
-  EXPECT_FALSE(isFinite(-kInfinity));
-  EXPECT_FALSE(isFinite(kNan));
+  for (const double finite :
+       {0.0, std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min()})
+    EXPECT_TRUE(isFinite(finite)) << finite;
+  for (const double bad : {kInfinity, -kInfinity, kNan}) EXPECT_FALSE(isFinite(bad)) << bad;
 }
 
 }  // namespace

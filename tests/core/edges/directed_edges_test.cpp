@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,25 +21,21 @@ struct Scene {
         seen(gray.size(), 1),
         direction(gray.size()),
         block(1 << 20) {
-    image.value = gray;
     image.seen = seen;
-    image.width = width;
-    image.height = height;
+    image.width = edges.width = width;
+    image.height = edges.height = height;
     edges.direction = direction;
   }
-  void detect() { detect({gray}); }
-  void detect(const std::vector<std::vector<std::uint8_t>>& channels) {
+  void detect() { detect(gray, 1); }
+  /// Channels one after the other.
+  void detect(std::vector<std::uint8_t> values, int channels) {
     Arena arena(block);
     DirectedEdgeDetector detector;
     detector.create(image.width, arena);
-    std::vector<std::uint8_t> values;
-    for (const std::vector<std::uint8_t>& channel : channels)
-      values.insert(values.end(), channel.begin(), channel.end());
     image.value = values;
-    detector.begin(image.width, image.height, static_cast<int>(channels.size()), edges);
+    detector.begin(image.width, image.height, channels, edges);
     while (!detector.step(image, 7, edges)) {
     }
-    image.value = gray;
   }
 
   std::vector<std::uint8_t> gray, seen, direction;
@@ -92,12 +89,12 @@ TEST(DirectedEdges, StepAtAnyAngle_IsFoundOnTheLineWithItsDirection) {
 TEST(DirectedEdges, SeveralChannels_ShowTheEdgesOfEach) {
   // A step across in the first channel, one down in the second, none in the third.
   Scene scene(64, 64);
-  std::vector<std::vector<std::uint8_t>> channels(3, std::vector<std::uint8_t>(64 * 64, 90));
-  for (std::size_t i = 0; i < channels[0].size(); ++i) {
-    if (i % 64 >= 32) channels[0][i] = 140;
-    if (i / 64 >= 32) channels[1][i] = 180;
+  std::vector<std::uint8_t> channels(3 * 64 * 64, 90);
+  for (std::size_t i = 0; i < 64 * 64; ++i) {
+    if (i % 64 >= 32) channels[i] = 140;
+    if (i / 64 >= 32) channels[64 * 64 + i] = 180;
   }
-  scene.detect(channels);
+  scene.detect(channels, 3);
   const auto isEdge = [&](int x, int y, int direction) {
     for (int step = -1; step <= 1; ++step)
       if (scene.edges.at(direction == 0 ? x + step : x, direction == 0 ? y : y + step) == direction)
@@ -116,18 +113,16 @@ TEST(DirectedEdges, EqualChannels_GiveTheEdgesOfOne) {
   for (std::uint8_t& value : scene.gray) value = static_cast<std::uint8_t>(random.below(256));
   scene.detect();
   const std::vector<std::uint8_t> of_one = scene.direction;
-  scene.detect({scene.gray, scene.gray, scene.gray});
+  std::vector<std::uint8_t> channels;
+  for (int i = 0; i < 3; ++i) channels.insert(channels.end(), scene.gray.begin(), scene.gray.end());
+  scene.detect(channels, 3);
   EXPECT_EQ(scene.direction, of_one);
 }
 
-TEST(DirectedEdges, FlatImage_HasNone) {
-  Scene scene(40, 30);
-  scene.detect();
-  EXPECT_EQ(std::count(scene.direction.begin(), scene.direction.end(), DirectedEdges::kNone), 1200);
-}
-
-TEST(DirectedEdges, UnseenPixels_AreNotEdgesAndCauseNone) {
+TEST(DirectedEdges, FlatImageAndUnseenPixels_HaveNone) {
   Scene scene(64, 64);
+  scene.detect();
+  EXPECT_EQ(scene.direction, std::vector<std::uint8_t>(64 * 64, DirectedEdges::kNone));
   for (int y = 0; y < 64; ++y)
     for (int x = 32; x < 64; ++x) {
       scene.gray[static_cast<std::size_t>(64 * y + x)] = 0;
@@ -150,8 +145,6 @@ TEST(DirectionDistance, IsTheLeastOverAllEdgesByBruteForce) {
   Random random(3);
   constexpr int kWidth = 37, kHeight = 23;
   Scene scene(kWidth, kHeight);
-  scene.edges.width = kWidth;
-  scene.edges.height = kHeight;
   for (auto& direction : scene.direction)
     direction =
         random.below(40) == 0 ? static_cast<std::uint8_t>(random.below(8)) : DirectedEdges::kNone;
@@ -175,15 +168,12 @@ TEST(DirectionDistance, IsTheLeastOverAllEdgesByBruteForce) {
 
 TEST(DirectionDistance, UnknownPixels_HaveTheMeanOfTheOthers) {
   Scene scene(20, 10);
-  scene.edges.width = 20;
-  scene.edges.height = 10;
-  std::fill(scene.direction.begin(), scene.direction.end(), DirectedEdges::kNone);
+  std::ranges::fill(scene.direction, DirectedEdges::kNone);
   scene.direction[25] = 0;
   for (std::size_t i = 100; i < 200; ++i) scene.direction[i] = DirectedEdges::kUnseen;
   std::vector<std::uint8_t> distance(200);
   distanceToDirection(scene.edges, 0, distance);
-  int sum = 0;
-  for (std::size_t i = 0; i < 100; ++i) sum += distance[i];
+  const int sum = std::accumulate(distance.begin(), distance.begin() + 100, 0);
   for (std::size_t i = 100; i < 200; ++i) EXPECT_EQ(distance[i], sum / 100);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <opencv2/core.hpp>
+#include <array>
+#include <opencv2/imgproc.hpp>
 
 #include "core/edges/border.h"
 #include "core/edges/gaussian.h"
@@ -46,6 +47,24 @@ inline cv::Mat smoothedByCore(const ImageView& image, double sigma_px) {
   options.equalization = Equalization::kOff;
   options.gaussian_sigma_px = sigma_px;
   return byCore(image, nullptr, options);
+}
+
+inline cv::Mat equalizedByOpenCv(const cv::Mat& image, Equalization equalization) {
+  cv::Mat out = image.clone();
+  if (equalization == Equalization::kHistogram) cv::equalizeHist(image, out);
+  if (equalization == Equalization::kClahe)
+    cv::createCLAHE(Equalizer::kClipLimit, cv::Size(Equalizer::kTiles, Equalizer::kTiles))
+        ->apply(image, out);
+  return out;
+}
+
+/// Derivatives by x and y in the units of cv::Canny's thresholds.
+inline std::array<cv::Mat, 2> sobelByOpenCv(const cv::Mat& image) {
+  std::array<cv::Mat, 2> derivatives;
+  for (int axis = 0; axis < 2; ++axis)
+    cv::Sobel(image, derivatives[static_cast<std::size_t>(axis)], CV_16S, 1 - axis, axis, 3, 1.0,
+              0.0, cv::BORDER_REPLICATE);
+  return derivatives;
 }
 
 /// 255 where set.

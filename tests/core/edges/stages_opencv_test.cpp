@@ -14,8 +14,10 @@ namespace {
 
 constexpr double kSigmas_px[] = {0.1, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 2.7, 3.3, 4.0, 8.0};
 
-TEST(GaussianKernel, SumsTo256AndFallsOff) {
+TEST(GaussianKernel, SumsTo256FallsOffAndIsWithinOne256thOfTheExactOne) {
+  int step = 0;
   for (double sigma_px = 0.0; sigma_px <= 8.0; sigma_px += 0.01) {
+    SCOPED_TRACE(sigma_px);
     const GaussianKernel kernel = gaussianKernel(sigma_px);
     ASSERT_LE(kernel.radius, kMaxGaussianRadius);
     EXPECT_EQ(kernel.radius, sigma_px > 0.0 ? (cvRound(6.0 * sigma_px + 1.0) | 1) / 2 : 0);
@@ -23,23 +25,15 @@ TEST(GaussianKernel, SumsTo256AndFallsOff) {
     for (std::size_t i = 1; i < kernel.weight.size(); ++i) {
       sum += 2 * kernel.weight[i];
       // Carrying the rounding error may lift a weight by one above its inner neighbour.
-      EXPECT_LE(kernel.weight[i], kernel.weight[i - 1] + 1) << sigma_px;
-      if (static_cast<int>(i) > kernel.radius) {
-        EXPECT_EQ(kernel.weight[i], 0);
-      }
+      EXPECT_LE(kernel.weight[i], kernel.weight[i - 1] + 1);
+      EXPECT_TRUE(kernel.weight[i] == 0 || static_cast<int>(i) <= kernel.radius);
     }
     EXPECT_EQ(sum, 256);
-  }
-}
-
-TEST(GaussianKernel, IsWithinOne256thOfTheExactOne) {
-  for (double sigma_px = 0.5; sigma_px <= 8.0; sigma_px += 0.1) {
-    const GaussianKernel kernel = gaussianKernel(sigma_px);
+    if (++step <= 50 || step % 10 != 1) continue;
     const cv::Mat exact = cv::getGaussianKernel(2 * kernel.radius + 1, sigma_px, CV_64F);
     for (int i = 0; i <= kernel.radius; ++i)
       EXPECT_NEAR(kernel.weight[static_cast<std::size_t>(i)],
-                  256.0 * exact.at<double>(kernel.radius + i), 1.0)
-          << sigma_px;
+                  256.0 * exact.at<double>(kernel.radius + i), 1.0);
   }
 }
 
@@ -52,23 +46,14 @@ TEST(GaussianBlur, EqualsOpenCv) {
         cv::Mat expected;
         cv::GaussianBlur(asMat(image), expected, cv::Size(), sigma_px, sigma_px,
                          cv::BORDER_REFLECT_101);
-        const cv::Mat actual = smoothedByCore(image.view(), sigma_px);
         // One gray level is what other versions of OpenCV (and its vendors' variants) may differ.
-        EXPECT_LE(cv::norm(actual, expected, cv::NORM_INF), 1.0)
+        const bool same_version = cv::getVersionMajor() == 4 && cv::getVersionMinor() == 6;
+        EXPECT_LE(cv::norm(smoothedByCore(image.view(), sigma_px), expected, cv::NORM_INF),
+                  same_version ? 0.0 : 1.0)
             << sigma_px << " " << testing::PrintToString(size);
-        if (cv::getVersionMajor() == 4 && cv::getVersionMinor() == 6) {
-          EXPECT_EQ(countDifferent(actual, expected), 0)
-              << sigma_px << " " << testing::PrintToString(size);
-        }
       }
     }
   }
-}
-
-TEST(GaussianBlur, SigmaZeroCopies) {
-  Random random(13);
-  TestImage image = makeImage(Pattern::kNoise, {77, 31}, random);
-  EXPECT_EQ(countDifferent(smoothedByCore(image.view(), 0.0), asMat(image)), 0);
 }
 
 struct Thresholds {
@@ -137,10 +122,7 @@ TEST(GradientRows, EqualsSobel) {
   Random random(23);
   for (const Size size : kSizes) {
     TestImage image = makeImage(Pattern::kNoise, size, random);
-    cv::Mat dx;
-    cv::Mat dy;
-    cv::Sobel(asMat(image), dx, CV_16S, 1, 0, 3, 1.0, 0, cv::BORDER_REPLICATE);
-    cv::Sobel(asMat(image), dy, CV_16S, 0, 1, 3, 1.0, 0, cv::BORDER_REPLICATE);
+    const auto [dx, dy] = sobelByOpenCv(asMat(image));
     TestArena arena;
     EdgeOptions options;
     options.equalization = Equalization::kOff;
@@ -165,31 +147,19 @@ TEST(GradientRows, EqualsSobel) {
   }
 }
 
-/// Every size and pattern as `oracle` makes it.
-template <class Oracle>
-void expectEqualTo(const Oracle& oracle, Equalization equalization, std::uint64_t seed) {
-  Random random(seed);
-  for (const Size size : kSizes) {
-    for (const Pattern pattern : kPatterns) {
-      TestImage image = makeImage(pattern, size, random);
-      cv::Mat expected;
-      oracle(asMat(image), expected);
-      EXPECT_EQ(countDifferent(equalizedByCore(image.view(), nullptr, equalization), expected), 0)
-          << testing::PrintToString(size) << " pattern " << static_cast<int>(pattern);
+TEST(EqualizeImage, EqualsOpenCv) {
+  Random random(1);
+  for (const Equalization equalization : {Equalization::kHistogram, Equalization::kClahe}) {
+    for (const Size size : kSizes) {
+      for (const Pattern pattern : kPatterns) {
+        TestImage image = makeImage(pattern, size, random);
+        EXPECT_EQ(countDifferent(equalizedByCore(image.view(), nullptr, equalization),
+                                 equalizedByOpenCv(asMat(image), equalization)),
+                  0)
+            << testing::PrintToString(size) << " pattern " << static_cast<int>(pattern);
+      }
     }
   }
-}
-
-TEST(EqualizeImage, EqualsEqualizeHist) {
-  expectEqualTo([](const cv::Mat& image, cv::Mat& out) { cv::equalizeHist(image, out); },
-                Equalization::kHistogram, 1);
-}
-
-TEST(EqualizeImage, EqualsClahe) {
-  const auto clahe =
-      cv::createCLAHE(Equalizer::kClipLimit, cv::Size(Equalizer::kTiles, Equalizer::kTiles));
-  expectEqualTo([&](const cv::Mat& image, cv::Mat& out) { clahe->apply(image, out); },
-                Equalization::kClahe, 2);
 }
 
 TEST(EqualizeImage, OnlyUnignoredPixelsShapeTheTable) {
@@ -198,16 +168,11 @@ TEST(EqualizeImage, OnlyUnignoredPixelsShapeTheTable) {
     TestImage image = makeImage(Pattern::kDisks, {150, 90}, random);
     TestBits ignore(image.width, image.height);
     ignoreRectangles(*ignore, random);
+    scramble(image, *ignore, random);
     std::vector<std::uint8_t> kept;
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        if (ignore->get(x, y)) {
-          image.at(x, y) = static_cast<std::uint8_t>(random.below(256));
-        } else {
-          kept.push_back(image.at(x, y));
-        }
-      }
-    }
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        if (!ignore->get(x, y)) kept.push_back(image.at(x, y));
     cv::Mat expected;
     cv::equalizeHist(cv::Mat(1, static_cast<int>(kept.size()), CV_8UC1, kept.data()), expected);
     const cv::Mat actual = equalizedByCore(image.view(), &*ignore, Equalization::kHistogram);
@@ -228,9 +193,7 @@ TEST(EqualizeImage, IgnoredPixels_DoNotAffectTheTiles) {
   TestBits ignore(image.width, image.height);
   ignoreRectangles(*ignore, random);
   TestImage other = image;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      if (ignore->get(x, y)) other.at(x, y) = static_cast<std::uint8_t>(random.below(256));
+  scramble(other, *ignore, random);
   ASSERT_NE(image, other);
   cv::Mat first = equalizedByCore(image.view(), &*ignore, Equalization::kClahe);
   cv::Mat second = equalizedByCore(other.view(), &*ignore, Equalization::kClahe);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
-#include <span>
 #include <vector>
 
 #include "core/base/arena.h"
@@ -42,38 +40,24 @@ struct TestImage {
   bool operator==(const TestImage&) const = default;
 };
 
-inline TestImage blankImage(int width, int height) {
-  return {width, height,
-          std::vector<std::uint8_t>(static_cast<std::size_t>(width) *
-                                    static_cast<std::size_t>(height))};
-}
-
-namespace detail {
-
-inline int blocksLevel(int x, int y, int cell) {
-  return (x / cell * 7919 + y / cell * 104729) * 31 % 256;
-}
-
-inline int disksLevel(int x, int y, Random& random) {
-  const int dx = x % 48 - 24;
-  const int dy = y % 40 - 19;
-  const int inside = dx * dx + dy * dy < 15 * 15 ? 190 : 40 + x % 60;
-  return inside + static_cast<int>(random.below(13));
-}
-
-}  // namespace detail
-
 inline TestImage makeImage(Pattern pattern, Size size, Random& random) {
-  TestImage image = blankImage(size.width, size.height);
+  TestImage image{size.width, size.height, {}};
+  image.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
   const int level = static_cast<int>(random.below(256));
   const int cell = 3 + static_cast<int>(random.below(20));
+  const auto inDisk = [](int x, int y) {
+    const int dx = x % 48 - 24;
+    const int dy = y % 40 - 19;
+    return dx * dx + dy * dy < 15 * 15;
+  };
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       int value = level;
       if (pattern == Pattern::kNoise) value = static_cast<int>(random.below(256));
       if (pattern == Pattern::kRamp) value = (2 * x + 3 * y + level) % 256;
-      if (pattern == Pattern::kBlocks) value = detail::blocksLevel(x, y, cell);
-      if (pattern == Pattern::kDisks) value = detail::disksLevel(x, y, random);
+      if (pattern == Pattern::kBlocks) value = (x / cell * 7919 + y / cell * 104729) * 31 % 256;
+      if (pattern == Pattern::kDisks)
+        value = (inDisk(x, y) ? 190 : 40 + x % 60) + static_cast<int>(random.below(13));
       if (pattern == Pattern::kCheckers) value = (x + y) % 2 == 0 ? 0 : 255;
       if (pattern == Pattern::kSpecks) value = random.below(9) == 0 ? 255 : level / 8;
       image.at(x, y) = static_cast<std::uint8_t>(value);
@@ -85,15 +69,11 @@ inline TestImage makeImage(Pattern pattern, Size size, Random& random) {
 /// An arena over its own memory.
 class TestArena {
  public:
-  explicit TestArena(std::size_t bytes = std::size_t{3} << 20)
-      : memory_(bytes / sizeof(Unit) + 1), arena_(std::as_writable_bytes(std::span(memory_))) {}
+  explicit TestArena(std::size_t bytes = std::size_t{3} << 20) : memory_(bytes), arena_(memory_) {}
   Arena& operator*() { return arena_; }
 
  private:
-  struct alignas(16) Unit {
-    std::array<std::byte, 16> bytes{};
-  };
-  std::vector<Unit> memory_;
+  std::vector<std::byte> memory_;
   Arena arena_;
 };
 
@@ -131,6 +111,13 @@ inline void ignoreRectangles(BitImage& bits, Random& random) {
     for (int y = top; y < bottom && y < bits.height; ++y)
       for (int x = left; x < right && x < bits.width; ++x) bits.set(x, y);
   }
+}
+
+/// Other content of ignored pixels.
+inline void scramble(TestImage& image, const BitImage& ignore, Random& random) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (ignore.get(x, y)) image.at(x, y) = static_cast<std::uint8_t>(random.below(256));
 }
 
 inline void PrintTo(const Size& size, std::ostream* out) {

@@ -17,11 +17,6 @@ class EveryPlanetaryCamera : public ::testing::TestWithParam<PlanetaryCamera> {
                              camera_from_reference_),
               Status::kOk);
   }
-  /// Anywhere in the image.
-  Eigen::Vector2d pixel(Random& random) const {
-    return {random.uniform(-1.0, camera_.width), random.uniform(-1.0, camera_.height)};
-  }
-
   Camera camera_;
   Pose camera_from_reference_;
 };
@@ -36,44 +31,6 @@ TEST_P(EveryPlanetaryCamera, AgreesWithTheFiftyDigitReference) {
     const Eigen::Vector3d direction = camera_from_reference_.rotation * sight.direction;
     EXPECT_LT((ray.direction.normalized() - direction).norm(), 1e-13);
     EXPECT_LT((ray.origin_m - camera_from_reference_ * sight.origin_m).norm(), 1e-14);
-  }
-}
-
-TEST_P(EveryPlanetaryCamera, ProjectsEveryRayBackOntoItsPixel) {
-  double worst_px = 0.0;
-  for (int j = 0; j <= 100; ++j) {
-    for (int i = 0; i <= 100; ++i) {
-      const Eigen::Vector2d pixel(-1.0 + (camera_.width + 1.0) * i / 100.0,
-                                  -1.0 + (camera_.height + 1.0) * j / 100.0);
-      const Ray ray = rayOf(camera_, pixel);
-      ASSERT_EQ(ray.direction.z(), 1.0);
-      for (const double depth_m : {0.1, 0.5, 20.0}) {
-        const Eigen::Vector2d back = pixelOf(camera_, ray.at(depth_m));
-        worst_px = std::max(worst_px, (back - pixel).norm());
-      }
-      Eigen::Vector3d direction;
-      Eigen::Vector2d back;
-      ASSERT_TRUE(unproject(camera_, pixel, direction));
-      EXPECT_EQ(direction, ray.direction);
-      ASSERT_TRUE(projectDirection(camera_, 3.0 * direction, back));
-      worst_px = std::max(worst_px, (back - pixel).norm());
-    }
-  }
-  EXPECT_LT(worst_px, 1e-9);
-}
-
-TEST_P(EveryPlanetaryCamera, JacobianAgreesWithFiniteDifferences) {
-  Random random = randomFor("CahvJacobian" + GetParam().name);
-  for (int i = 0; i < 1000; ++i) {
-    const Ray ray = rayOf(camera_, pixel(random));
-    const Eigen::Vector3d point = ray.at(random.uniform(0.1, 4.0));
-    Eigen::Vector2d plain;
-    Eigen::Vector2d pixel;
-    Eigen::Matrix<double, 2, 3> jacobian;
-    ASSERT_TRUE(project(camera_, point, plain));
-    ASSERT_TRUE(projectWithJacobian(camera_, point, pixel, jacobian));
-    EXPECT_EQ(pixel, plain);
-    expectDerivatives(camera_, point, jacobian, 1e-5 * point.z(), 1e-6 * (1.0 + jacobian.norm()));
   }
 }
 
@@ -95,29 +52,10 @@ TEST_P(EveryPlanetaryCamera, JacobianIsSmoothThroughTheOpticalAxis) {
   }
 }
 
-TEST_P(EveryPlanetaryCamera, LevelsAndCrops_ProjectTheSamePoints) {
-  Random random = randomFor("CahvLevel" + GetParam().name);
-  Camera part = camera_;
-  ASSERT_EQ(cutToFrame(100, -37, 400, 300, part), Status::kOk);
-  for (int i = 0; i < 200; ++i) {
-    const Ray ray = rayOf(camera_, pixel(random));
-    const Eigen::Vector3d point = ray.at(0.4);
-    const Eigen::Vector2d full = pixelOf(camera_, point);
-    Eigen::Vector2d seen;
-    for (int level = 1; level <= 4; ++level) {
-      ASSERT_TRUE(project(cameraAtLevel(camera_, level), point, seen));
-      const Eigen::Vector2d half(0.5, 0.5);
-      EXPECT_LT((seen - ((full + half) / std::ldexp(1.0, level) - half)).norm(), 1e-9);
-    }
-    ASSERT_TRUE(project(part, point, seen));
-    EXPECT_LT((seen - full + Eigen::Vector2d(100.0, -37.0)).norm(), 1e-9);
-  }
-}
-
 TEST_P(EveryPlanetaryCamera, SeenFromPupil_LiesInTheDirectionOfThePixel) {
   Random random = randomFor("CahvSeen" + GetParam().name);
   for (int i = 0; i < 300; ++i) {
-    const Eigen::Vector2d at = pixel(random);
+    const Eigen::Vector2d at = randomPixel(camera_, random);
     const Ray ray = rayOf(camera_, at);
     const double depth_m = random.uniform(0.15, 3.0);
     const Eigen::Vector3d seen = seenFromPupil(camera_, ray.at(depth_m));
@@ -143,25 +81,6 @@ TEST_P(EveryPlanetaryCamera, CahvVectors_RoundTripThroughTheReferenceFrame) {
   if (cahv.model != CameraModel::kCahv) {
     EXPECT_LT((again.o - cahv.o).norm(), 1e-15);
   }
-}
-
-TEST_P(EveryPlanetaryCamera, RefusesPointsBehindAndNonFiniteInput) {
-  Eigen::Vector2d pixel;
-  Ray ray;
-  Eigen::Matrix<double, 2, 3> jacobian;
-  for (const Eigen::Vector3d& point :
-       {Eigen::Vector3d(0.1, 0.1, 0.0), Eigen::Vector3d(0.1, 0.1, -1.0),
-        Eigen::Vector3d(0.0, 0.0, -1e-300), Eigen::Vector3d(0.1, 0.1, 1e-320),
-        Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.0, kNan, 1.0),
-        Eigen::Vector3d(0.0, 0.0, kNan), Eigen::Vector3d(kInfinity, 0.0, 1.0),
-        Eigen::Vector3d(kInfinity, 0.0, kInfinity)}) {
-    EXPECT_FALSE(project(camera_, point, pixel)) << point.transpose();
-    EXPECT_FALSE(projectDirection(camera_, point, pixel)) << point.transpose();
-    EXPECT_FALSE(projectWithJacobian(camera_, point, pixel, jacobian)) << point.transpose();
-  }
-  for (const Eigen::Vector2d& bad : {Eigen::Vector2d(kNan, 0.0), Eigen::Vector2d(0.0, kInfinity),
-                                     Eigen::Vector2d(1e300, -1e300)})
-    EXPECT_FALSE(unprojectRay(camera_, bad, ray)) << bad.transpose();
 }
 
 /// Anything that projects, wherever it lands, is on the ray of the pixel where it does: nothing
@@ -200,9 +119,7 @@ TEST(Cahv, VectorsOfAPinhole_GiveThatPinhole) {
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector3d point(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
                                   random.uniform(0.5, 3.0));
-      const Eigen::Vector2d pixel = pixelOf(camera, point);
-      const Eigen::Vector2d expected = pixelOf(pinhole, point);
-      EXPECT_LT((pixel - expected).norm(), 1e-9);
+      EXPECT_LT((pixelOf(camera, point) - pixelOf(pinhole, point)).norm(), 1e-9);
     }
   }
 }
@@ -229,13 +146,10 @@ void expectSamePixels(const Camera& expected_camera, const Camera& camera) {
   Random random = randomFor("CahvSamePixels");
   ASSERT_EQ(pupilMoves(expected_camera), false);
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector2d at(random.uniform(0.0, expected_camera.width),
-                             random.uniform(0.0, expected_camera.height));
+    const Eigen::Vector2d at = randomPixel(expected_camera, random);
     const Ray ray = rayOf(expected_camera, at);
-    Eigen::Vector2d pixel;
-    Eigen::Vector2d expected;
-    Eigen::Matrix<double, 2, 3> jacobian;
-    Eigen::Matrix<double, 2, 3> expected_jacobian;
+    Eigen::Vector2d pixel, expected;
+    Eigen::Matrix<double, 2, 3> jacobian, expected_jacobian;
     const Eigen::Vector3d point = ray.at(random.uniform(0.1, 2.0));
     ASSERT_TRUE(projectWithJacobian(expected_camera, point, expected, expected_jacobian));
     ASSERT_TRUE(projectWithJacobian(camera, point, pixel, jacobian));
@@ -262,12 +176,11 @@ TEST(Cahvor, AxisAlongZ_EqualsBrownsRadialModel) {
   camera.cahv.optical_axis = Eigen::Vector3d::UnitZ();
   camera.cahv.skew_px = 0.0;
   const Eigen::Vector3d r = camera.cahv.radial;
-  Camera brown = makeCamera(CameraModel::kBrownConrady, camera.width, camera.height, 1.0,
-                            {r[1] / (1.0 + r[0]), r[2] / (1.0 + r[0])});
-  brown.fx = camera.fx * (1.0 + r[0]);
-  brown.fy = camera.fy * (1.0 + r[0]);
-  brown.cx = camera.cx;
-  brown.cy = camera.cy;
+  Camera brown = camera;
+  brown.cahv = CahvLens();
+  brown.distortion = {r[1] / (1.0 + r[0]), r[2] / (1.0 + r[0])};
+  brown.fx *= 1.0 + r[0];
+  brown.fy *= 1.0 + r[0];
   expectSamePixels(changed(brown, CameraModel::kBrownConrady),
                    changed(camera, CameraModel::kCahvor));
 }
@@ -284,12 +197,9 @@ TEST(Cahvore, FixedPupilFisheye_EqualsKannalaBrandt) {
   camera.cahv.entrance_m.setZero();
   camera.cahv.radial[0] = 0.0;
   camera.cahv.skew_px = 0.0;
-  Camera fisheye = makeCamera(CameraModel::kKannalaBrandt, camera.width, camera.height, 1.0,
-                              {camera.cahv.radial[1], camera.cahv.radial[2]});
-  fisheye.fx = camera.fx;
-  fisheye.fy = camera.fy;
-  fisheye.cx = camera.cx;
-  fisheye.cy = camera.cy;
+  Camera fisheye = camera;
+  fisheye.cahv = CahvLens();
+  fisheye.distortion = {camera.cahv.radial[1], camera.cahv.radial[2]};
   expectSamePixels(changed(fisheye, CameraModel::kKannalaBrandt),
                    changed(camera, CameraModel::kCahvore));
 }
@@ -299,11 +209,8 @@ TEST(Cahvore, LinearityIsContinuousAtTheFisheye) {
   Camera zero = camera;
   camera.cahv.linearity = 1e-9;
   zero.cahv.linearity = 0.0;
-  camera = changed(camera, CameraModel::kCahvore);
-  zero = changed(zero, CameraModel::kCahvore);
-  const Eigen::Vector2d pixel = pixelOf(camera, {0.3, 0.4, 0.5});
-  const Eigen::Vector2d expected = pixelOf(zero, {0.3, 0.4, 0.5});
-  EXPECT_LT((pixel - expected).norm(), 1e-5);
+  const Eigen::Vector2d pixel = pixelOf(changed(camera, CameraModel::kCahvore), {0.3, 0.4, 0.5});
+  EXPECT_LT((pixel - pixelOf(changed(zero, CameraModel::kCahvore), {0.3, 0.4, 0.5})).norm(), 1e-5);
 }
 
 /// 1 + 3 r1 tau + 5 r2 tau^2 = 0.
@@ -333,9 +240,8 @@ TEST(Cahvore, ValidFieldEndsWhereTheGeneralModelDoes) {
 TEST(Cahvore, RefusesPointsWhereRaysCross) {
   const Camera camera = planetaryCamera("HazardDeepPupil");
   Eigen::Vector2d pixel;
-  for (const double distance_m : {1e-4, 1e-6, 1e-30}) {
+  for (const double distance_m : {1e-4, 1e-6, 1e-30})
     EXPECT_FALSE(project(camera, Eigen::Vector3d(1.0, 0.5, 0.7) * distance_m, pixel));
-  }
   EXPECT_TRUE(project(camera, Eigen::Vector3d(1.0, 0.5, 0.7) * 0.1, pixel));
 }
 
@@ -353,13 +259,9 @@ TEST(CameraFromCahv, RefusesInvalidVectors) {
     EXPECT_EQ(status(change), Status::kInvalidCamera);
   };
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
-    refused([bad](CahvModel& c) { c.c_m[1] = bad; });
-    refused([bad](CahvModel& c) { c.a[1] = bad; });
-    refused([bad](CahvModel& c) { c.h_px[1] = bad; });
-    refused([bad](CahvModel& c) { c.v_px[1] = bad; });
-    refused([bad](CahvModel& c) { c.o[1] = bad; });
-    refused([bad](CahvModel& c) { c.r[1] = bad; });
-    refused([bad](CahvModel& c) { c.e_m[1] = bad; });
+    for (const auto member : {&CahvModel::c_m, &CahvModel::a, &CahvModel::h_px, &CahvModel::v_px,
+                              &CahvModel::o, &CahvModel::r, &CahvModel::e_m})
+      refused([=](CahvModel& c) { (c.*member)[1] = bad; });
     refused([bad](CahvModel& c) { c.parameter = bad; });
   }
   refused([](CahvModel& c) { c.a *= 1.01; });

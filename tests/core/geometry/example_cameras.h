@@ -26,6 +26,13 @@ inline Eigen::Vector2d pixelOf(const Camera& camera, const Eigen::Vector3d& poin
   return pixel;
 }
 
+/// Anywhere in the image.
+inline Eigen::Vector2d randomPixel(const Camera& camera, Random& random) {
+  const double x = random.uniform(-1.0, camera.width);
+  const double y = random.uniform(-1.0, camera.height);
+  return {x, y};
+}
+
 /// The ray of a pixel; the test fails when there is none.
 inline Ray rayOf(const Camera& camera, const Eigen::Vector2d& pixel) {
   Ray ray;

@@ -40,6 +40,13 @@ inline std::vector<PlanetaryCamera> planetaryCameras() {
   };
 }
 
+inline std::vector<NamedCamera> exampleAndPlanetaryCameras() {
+  std::vector<NamedCamera> cameras = exampleCameras();
+  for (const PlanetaryCamera& planetary : planetaryCameras())
+    cameras.push_back({planetary.name + "Planetary", planetary.camera()});
+  return cameras;
+}
+
 inline Camera planetaryCamera(const std::string& name) {
   for (const PlanetaryCamera& known : planetaryCameras())
     if (known.name == name) return known.camera();

@@ -13,8 +13,6 @@
 namespace boresight::test {
 namespace {
 
-using ::testing::Not;
-
 Eigen::Matrix4d homogeneous(const Pose& pose) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() = pose.matrix();
@@ -22,8 +20,8 @@ Eigen::Matrix4d homogeneous(const Pose& pose) {
   return matrix;
 }
 
-double angleBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
-  return 2.0 * (a.coeffs() * (a.dot(b) < 0.0 ? -1.0 : 1.0) - b.coeffs()).norm();
+Eigen::Matrix3d matrixOf(const Eigen::Vector3d& rotation_rad) {
+  return Eigen::AngleAxisd(rotation_rad.norm(), rotation_rad.normalized()).toRotationMatrix();
 }
 
 TEST(Pose, AgreesWithItsMatrix) {
@@ -52,14 +50,9 @@ TEST(Pose, LongChainsStayRotations) {
 TEST(Pose, IsFinite_ChecksEveryNumber) {
   EXPECT_TRUE(Pose{}.isFinite());
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 7; ++i) {
       Pose pose;
-      pose.rotation.coeffs()[i] = bad;
-      EXPECT_FALSE(pose.isFinite());
-    }
-    for (int i = 0; i < 3; ++i) {
-      Pose pose;
-      pose.translation_m[i] = bad;
+      (i < 4 ? pose.rotation.coeffs()[i] : pose.translation_m[i - 4]) = bad;
       EXPECT_FALSE(pose.isFinite());
     }
   }
@@ -78,9 +71,7 @@ TEST(RotationExp, AgreesWithAngleAxisAtEveryScale) {
     EXPECT_NEAR(actual.w(), expected.w(), 1e-15);
   }
   EXPECT_EQ(rotationExp(Eigen::Vector3d::Zero()).coeffs(), Eigen::Quaterniond::Identity().coeffs());
-}
-
-TEST(RotationExp, IsContinuousWhereTheSeriesTakesOver) {
+  // Where the series takes over.
   for (const double angle_rad : {0.9999e-3, 1e-3, 1.0001e-3, 1e-2}) {
     const double expected = std::sin(0.5 * angle_rad);
     EXPECT_NEAR(rotationExp({angle_rad, 0.0, 0.0}).x(), expected, 4e-16 * expected);
@@ -106,7 +97,9 @@ TEST(RotationLog, TakesTheShorterWayForEitherSign) {
     const Eigen::Quaterniond negative(-q.coeffs());
     EXPECT_LE(rotationLog(q).norm(), kPi + 1e-15);
     EXPECT_EQ(rotationLog(q), rotationLog(negative));
-    EXPECT_LT(angleBetween(rotationExp(rotationLog(q)), q), 4e-15);
+    const Eigen::Quaterniond again = rotationExp(rotationLog(q));
+    EXPECT_LT(2.0 * (again.coeffs() * (again.dot(q) < 0.0 ? -1.0 : 1.0) - q.coeffs()).norm(),
+              4e-15);
   }
 }
 
@@ -125,9 +118,7 @@ TEST(Perturbed, MovesPointsOnTheLeft) {
     Vector6d xi;
     xi << randomVector(random, 1.0), randomVector(random, 1.0);
     const Eigen::Vector3d point = randomVector(random, 1.0);
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(xi.head<3>().norm(), xi.head<3>().normalized()).toRotationMatrix();
-    const Eigen::Vector3d expected = turn * (pose * point) + xi.tail<3>();
+    const Eigen::Vector3d expected = matrixOf(xi.head<3>()) * (pose * point) + xi.tail<3>();
     EXPECT_LT((perturbed(xi, pose) * point - expected).norm(), 1e-14);
     EXPECT_LT((perturbationBetween(pose, perturbed(xi, pose)) - xi).norm(), 1e-14);
     const Pose other = randomPose(random);
@@ -206,24 +197,12 @@ TEST(OffsetAboutPivot, IsTheDisplacementOfTheConventions) {
     const Vector6d offset = randomOffset(random, scaled(SeedUncertainty{}, 5.0));
     const Pose pose = displacedAboutPivot(seed, offset, pivot_m);
     const Eigen::Vector3d point_in_station_m = randomVector(random, 0.3);
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(offset.head<3>().norm(), offset.head<3>().normalized())
-            .toRotationMatrix();
     const Eigen::Vector3d expected =
-        turn * (seed * point_in_station_m - pivot_m) + pivot_m + offset.tail<3>();
+        matrixOf(offset.head<3>()) * (seed * point_in_station_m - pivot_m) + pivot_m +
+        offset.tail<3>();
     EXPECT_LT((pose * point_in_station_m - expected).norm(), 1e-14);
     EXPECT_LT((offsetAboutPivot(seed, pose, pivot_m) - offset).norm(), 1e-14);
   }
-}
-
-TEST(OffsetAboutPivot, RotationAboutThePivotLeavesItInPlace) {
-  const Pose seed{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.5}};
-  const Eigen::Vector3d pivot_m(0.0, 0.05, 0.6);
-  Vector6d offset = Vector6d::Zero();
-  offset[1] = 0.4;
-  const Pose pose = displacedAboutPivot(seed, offset, pivot_m);
-  EXPECT_LT((pose * (seed.inverse() * pivot_m) - pivot_m).norm(), 1e-15);
-  EXPECT_THAT(pose, Not(poseNear(seed, 0.39, 1.0)));
 }
 
 TEST(Scaled, ScalesBothBoxesAndKeepsThePivot) {

@@ -12,6 +12,16 @@
 namespace boresight::test {
 namespace {
 
+template <class Values>
+void writeAll(DigestWriter& writer, const Values& values) {
+  for (const double value : values) writer.f64(value);
+}
+
+/// Row by row.
+void writeAll(DigestWriter& writer, const Eigen::Matrix<double, 2, 3>& jacobian) {
+  for (int k = 0; k < 6; ++k) writer.f64(jacobian(k / 3, k % 3));
+}
+
 /// Every machine, compiler and optimization level must give these bits: a digest that changes
 /// means that localizations recorded before can no longer be reproduced.
 template <class Fill>
@@ -31,7 +41,7 @@ TEST(SameBits, OfElementaryFunctions) {
           sin(x),      cos(x),      tan(x),  atan(x),
           atan2(x, y), atan2(y, x), asin(y), atan2(std::sqrt((1.0 - y) * (1.0 + y)), y),
           exp(x),      exp(y),      log(-x), log(1.0 + y)};
-      for (const double value : values) writer.f64(value);
+      writeAll(writer, values);
     }
   });
   EXPECT_EQ(digest, "35e969f2b3f0a1b59bb7af6ffc14e8f0cc2910da612871841a46cae4e8a68317");
@@ -52,9 +62,6 @@ TEST(SameBits, OfRandomNumbers) {
 
 TEST(SameBits, OfPoses) {
   const std::string digest = digestOf([](DigestWriter& writer) {
-    const auto write = [&writer](const auto& values) {
-      for (int k = 0; k < values.size(); ++k) writer.f64(values(k));
-    };
     Random random(2024, 8);
     for (int i = 0; i < 2000; ++i) {
       const Pose a = randomPose(random);
@@ -65,12 +72,12 @@ TEST(SameBits, OfPoses) {
       matrix(i % 3, 1) += 1e-5;
       ASSERT_EQ(poseFromMatrix(matrix, b.translation_m, orthogonal, deviation), Status::kOk);
       for (const Pose& pose : {a * b, a.inverse(), orthogonal}) {
-        write(pose.rotation.coeffs());
-        write(pose.translation_m);
+        writeAll(writer, pose.rotation.coeffs());
+        writeAll(writer, pose.translation_m);
       }
-      write(perturbationBetween(a, b));
-      write(offsetAboutPivot(a, b, a.translation_m));
-      write(perturbed(perturbationBetween(b, a), b).rotation.coeffs());
+      writeAll(writer, perturbationBetween(a, b));
+      writeAll(writer, offsetAboutPivot(a, b, a.translation_m));
+      writeAll(writer, perturbed(perturbationBetween(b, a), b).rotation.coeffs());
       writer.f64(deviation);
     }
   });
@@ -91,10 +98,10 @@ TEST(SameBits, OfProjections) {
         Eigen::Matrix<double, 2, 3> jacobian;
         ASSERT_TRUE(unproject(camera, pixel, ray));
         ASSERT_TRUE(projectWithJacobian(camera, 0.7 * ray, pixel, jacobian));
-        for (int k = 0; k < 3; ++k) writer.f64(ray[k]);
-        for (int k = 0; k < 6; ++k) writer.f64(jacobian(k / 3, k % 3));
+        writeAll(writer, ray);
+        writeAll(writer, jacobian);
         ASSERT_TRUE(project(camera, 0.3 * ray, pixel));
-        for (int k = 0; k < 2; ++k) writer.f64(pixel[k]);
+        writeAll(writer, pixel);
       }
     }
   });
@@ -120,11 +127,11 @@ TEST(SameBits, OfPlanetaryCameras) {
         const bool projects = projectWithJacobian(camera, point, pixel, jacobian);
         writer.u8(projects ? 1 : 0);
         if (!projects) continue;
-        for (int k = 0; k < 2; ++k) writer.f64(pixel[k]);
-        for (int k = 0; k < 6; ++k) writer.f64(jacobian(k / 3, k % 3));
+        writeAll(writer, pixel);
+        writeAll(writer, jacobian);
         writer.u8(unprojectRay(camera, pixel, ray) ? 1 : 0);
-        for (int k = 0; k < 3; ++k) writer.f64(ray.direction[k]);
-        for (int k = 0; k < 3; ++k) writer.f64(ray.origin_m[k]);
+        writeAll(writer, ray.direction);
+        writeAll(writer, ray.origin_m);
       }
     }
   });

@@ -34,6 +34,16 @@ Eigen::Vector3d rayAt(double radius, double azimuth_rad) {
   return {radius * std::cos(azimuth_rad), radius * std::sin(azimuth_rad), 1.0};
 }
 
+bool projects(const Camera& camera, const Eigen::Vector3d& ray) {
+  Eigen::Vector2d pixel;
+  return project(camera, ray, pixel);
+}
+
+bool unprojects(const Camera& camera, const Eigen::Vector2d& pixel) {
+  Eigen::Vector3d ray;
+  return unproject(camera, pixel, ray);
+}
+
 /// The written-out definition of the radial factor times r.
 double distortedRadius(const Camera& camera, double r) {
   const auto& k = camera.distortion;
@@ -45,31 +55,25 @@ double distortedRadius(const Camera& camera, double r) {
 TEST(ValidField, EndsWhereTheBarrelStopsIncreasing) {
   const Camera camera = unitCamera(CameraModel::kBrownConrady, {-0.3});
   EXPECT_NEAR(camera.valid_radius, 1.0 / std::sqrt(0.9), 1e-12);
-  Eigen::Vector2d pixel;
-  Eigen::Vector3d ray;
-  EXPECT_TRUE(project(camera, rayAt(camera.valid_radius * 0.9999, 0.7), pixel));
-  EXPECT_FALSE(project(camera, rayAt(camera.valid_radius * 1.0001, 0.7), pixel));
+  EXPECT_TRUE(projects(camera, rayAt(camera.valid_radius * 0.9999, 0.7)));
+  EXPECT_FALSE(projects(camera, rayAt(camera.valid_radius * 1.0001, 0.7)));
   const double edge = distortedRadius(camera, camera.valid_radius);
-  EXPECT_TRUE(unproject(camera, {edge * 0.99999, 0.0}, ray));
-  EXPECT_FALSE(unproject(camera, {edge * 1.00001, 0.0}, ray));
-  EXPECT_FALSE(unproject(camera, {0.0, -10.0 * edge}, ray));
+  EXPECT_TRUE(unprojects(camera, {edge * 0.99999, 0.0}));
+  EXPECT_FALSE(unprojects(camera, {edge * 1.00001, 0.0}));
+  EXPECT_FALSE(unprojects(camera, {0.0, -10.0 * edge}));
 }
 
-TEST(ValidField, IsUnlimitedForAnIncreasingModel) {
+TEST(ValidField, IsUnlimitedForAnIncreasingModel_EndsBeforeThePoleOfARationalOne) {
   EXPECT_GT(unitCamera(CameraModel::kPinhole, {}).valid_radius, 1e3);
   EXPECT_GT(unitCamera(CameraModel::kBrownConrady, {}).valid_radius, 1e3);
   // 1 - 0.36 s + 0.3 s^2 has no real root; the field ends where |q| becomes absurd.
   const Camera camera = unitCamera(CameraModel::kBrownConrady, {-0.12, 0.06});
   EXPECT_GT(camera.valid_radius, 10.0);
   EXPECT_NEAR(distortedRadius(camera, camera.valid_radius), 1e4, 1e-3);
-}
-
-TEST(ValidField, EndsBeforeThePoleOfARationalModel) {
-  const Camera camera = unitCamera(CameraModel::kBrownConrady, {0.0, 0.0, 0.0, 0.0, 0.0, -0.25});
-  EXPECT_LT(camera.valid_radius, 2.0);
-  EXPECT_GT(camera.valid_radius, 1.999);
-  Eigen::Vector2d pixel;
-  EXPECT_FALSE(project(camera, rayAt(2.5, 0.0), pixel));
+  const Camera rational = unitCamera(CameraModel::kBrownConrady, {0.0, 0.0, 0.0, 0.0, 0.0, -0.25});
+  EXPECT_LT(rational.valid_radius, 2.0);
+  EXPECT_GT(rational.valid_radius, 1.999);
+  EXPECT_FALSE(projects(rational, rayAt(2.5, 0.0)));
 }
 
 TEST(ValidField, AgreesWithADenseScanOfTheRadialFactor) {
@@ -136,9 +140,8 @@ TEST(ValidField, EveryPointInside_IsRecoveredFromItsPixel) {
       // Half of them hard against the end of the field, where the Jacobian vanishes.
       const double inside = j % 2 == 0 ? random.uniform() : 1.0 - 1e-3 * random.uniform();
       const Eigen::Vector3d ray = rayAt(end * inside, random.uniform(-kPi, kPi));
-      Eigen::Vector2d pixel;
+      Eigen::Vector2d pixel, again;
       Eigen::Vector3d found;
-      Eigen::Vector2d again;
       ASSERT_TRUE(project(camera, ray, pixel));
       ASSERT_TRUE(unproject(camera, pixel, found)) << "camera " << i << ", ray " << ray.transpose();
       ASSERT_TRUE(project(camera, found, again));
@@ -175,17 +178,16 @@ TEST(ValidField, FisheyeEndsWhereItsPolynomialDoesOrAtARightAngle) {
   // d theta_d / d theta = 1 - 3 * 0.4 theta^2.
   const Camera folding = unitCamera(CameraModel::kKannalaBrandt, {-0.4});
   EXPECT_NEAR(folding.valid_radius, 1.0 / std::sqrt(1.2), 1e-12);
-  Eigen::Vector2d pixel;
-  EXPECT_TRUE(project(folding, rayAt(std::tan(folding.valid_radius) * 0.9999, 2.0), pixel));
-  EXPECT_FALSE(project(folding, rayAt(std::tan(folding.valid_radius) * 1.0001, 2.0), pixel));
+  EXPECT_TRUE(projects(folding, rayAt(std::tan(folding.valid_radius) * 0.9999, 2.0)));
+  EXPECT_FALSE(projects(folding, rayAt(std::tan(folding.valid_radius) * 1.0001, 2.0)));
 
   const Camera wide = unitCamera(CameraModel::kKannalaBrandt, {});
   EXPECT_NEAR(wide.valid_radius, kPi / 2.0, 2e-4);
   Eigen::Vector3d ray;
   EXPECT_TRUE(unproject(wide, {1.57, 0.0}, ray));
   EXPECT_NEAR(ray.x(), std::tan(1.57), 1e-9 * std::tan(1.57));
-  EXPECT_FALSE(unproject(wide, {1.5708, 0.0}, ray));  // sideways and backwards
-  EXPECT_FALSE(unproject(wide, {2.0, 2.0}, ray));
+  EXPECT_FALSE(unprojects(wide, {1.5708, 0.0}));  // sideways and backwards
+  EXPECT_FALSE(unprojects(wide, {2.0, 2.0}));
 }
 
 TEST(ValidField, FisheyeIsSmoothThroughItsCentre) {
@@ -235,12 +237,6 @@ TEST(PositiveUpTo, FindsTheFirstOfManyRoots) {
   }
 }
 
-TEST(PositiveUpTo, FindsTheFirstOfTwoCloseRoots) {
-  // (x - 1) (x - 1.0001): negative on a ten-thousandth only.
-  const Polynomial dip{{1.0001, -2.0001, 1.0}};
-  EXPECT_NEAR(positiveUpTo(dip, 100.0), 1.0, 1e-9);
-}
-
 TEST(PositiveUpTo, NeverReturnsAPointThatIsNotPositive) {
   Random random = randomFor("NeverReturnsAPointThatIsNotPositive");
   for (int i = 0; i < 500; ++i) {
@@ -255,7 +251,9 @@ TEST(PositiveUpTo, NeverReturnsAPointThatIsNotPositive) {
   }
 }
 
-TEST(PositiveUpTo, IsTheLimitWithoutRootsAndZeroWithoutAStart) {
+TEST(PositiveUpTo, FindsTheFirstOfTwoCloseRoots_IsTheLimitWithoutRootsAndZeroWithoutAStart) {
+  // (x - 1) (x - 1.0001): negative on a ten-thousandth only.
+  EXPECT_NEAR(positiveUpTo({{1.0001, -2.0001, 1.0}}, 100.0), 1.0, 1e-9);
   EXPECT_EQ(positiveUpTo({{1.0}}, 7.0), 7.0);
   EXPECT_EQ(positiveUpTo({{1.0, 0.0, 3.0}}, 7.0), 7.0);
   EXPECT_EQ(positiveUpTo({{1.0, -0.1}}, 7.0), 7.0);  // its root is beyond

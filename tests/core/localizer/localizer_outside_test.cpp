@@ -2,10 +2,11 @@
 // Matches from outside core, in the same loop.
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <algorithm>
 
 #include "core/match/whs.h"
 #include "tests/core/localizer/scene.h"
+#include "tests/support/not_finite.h"
 
 namespace boresight::test {
 namespace {
@@ -13,13 +14,10 @@ namespace {
 /// WHS as an external matcher, built from parts of core.
 class OutsideWhs {
  public:
-  OutsideWhs(const Camera& camera, const LocalizerOptions& options)
-      : options_(options), most_(std::max(camera.width, camera.height)) {
-    Arena counter;
-    EXPECT_EQ(search_.create(kMostSide, most_, Kernels::kPortable, counter), Status::kOk);
-    memory_.resize(counter.highWater() + Arena::kAlignment);
+  explicit OutsideWhs(const Camera& camera) {
     Arena arena(memory_);
-    EXPECT_EQ(search_.create(kMostSide, most_, Kernels::kPortable, arena), Status::kOk);
+    EXPECT_EQ(search_.create(256, std::max(camera.width, camera.height), Kernels::kPortable, arena),
+              Status::kOk);
   }
 
   std::vector<SuppliedMatch> match(const Workspace& workspace) {
@@ -31,8 +29,6 @@ class OutsideWhs {
   }
 
  private:
-  static constexpr int kMostSide = 256;
-
   SuppliedMatch find(const Workspace& workspace, const Template& item) {
     const Iteration& iteration = *workspace.iteration;
     const BitImage& edges = workspace.edges.level[static_cast<std::size_t>(iteration.level)];
@@ -55,40 +51,32 @@ class OutsideWhs {
     return match;
   }
 
-  LocalizerOptions options_;
-  int most_;
-  std::vector<std::byte> memory_;
+  std::vector<std::byte> memory_ = std::vector<std::byte>(1 << 20);
   WhsSearch search_;
 };
 
-void expectSamePose(const Pose& first, const Pose& second) {
-  EXPECT_EQ(first.rotation.coeffs(), second.rotation.coeffs());
-  EXPECT_EQ(first.translation_m, second.translation_m);
+/// Runs to the end; `matches` gives the matches for each iteration that awaits them.
+template <class Matches>
+void finishWith(OwnedRun& run, const Matches& matches) {
+  run.finish([&](const StepReport&) {
+    if (!run.localizer.awaitsMatches()) return;
+    ASSERT_EQ(run.localizer.supplyMatches(matches(run.workspace)), Status::kOk);
+  });
 }
 
 TEST(LocalizerOutside, SameMatches_GiveTheSameBits) {
   for (const bool distorted : {false, true}) {
     const Case scene = stationCase(2, distorted);
-    const LocalizerOptions options = withoutSearch();
-    OwnedRun inside(scene.problem(), options);
-    ASSERT_GT(inside.finish(), 0);
-    ASSERT_EQ(inside.localizer.workspace().status, LocalizationStatus::kConverged);
+    const FinishedRun inside(scene, withoutSearch());
+    ASSERT_EQ(inside.workspace.status, LocalizationStatus::kConverged);
 
-    OwnedRun outside(scene.problem(), options);
-    OutsideWhs whs(scene.camera, options);
+    OwnedRun outside(scene.problem(), withoutSearch());
+    OutsideWhs whs(scene.camera);
     outside.localizer.matchOutside({});
-    StepReport report;
-    for (int steps = 0; !report.finished && steps < 1000000; ++steps) {
-      if (outside.localizer.awaitsMatches()) {
-        ASSERT_EQ(outside.localizer.supplyMatches(whs.match(outside.localizer.workspace())),
-                  Status::kOk);
-      }
-      report = outside.localizer.step();
-    }
-    EXPECT_EQ(outside.localizer.workspace().status, LocalizationStatus::kConverged);
-    expectSamePose(outside.localizer.workspace().camera_from_station,
-                   inside.localizer.workspace().camera_from_station);
-    EXPECT_EQ(outside.localizer.workspace().iterations, inside.localizer.workspace().iterations);
+    finishWith(outside, [&](const Workspace& workspace) { return whs.match(workspace); });
+    EXPECT_EQ(outside.workspace.status, LocalizationStatus::kConverged);
+    EXPECT_EQ(outside.workspace.camera_from_station, inside.workspace.camera_from_station);
+    EXPECT_EQ(outside.workspace.iterations, inside.workspace.iterations);
     EXPECT_NE(outside.localizer.digest(), inside.localizer.digest()) << "WHS did not make these";
   }
 }
@@ -96,13 +84,10 @@ TEST(LocalizerOutside, SameMatches_GiveTheSameBits) {
 /// A run that waits for matches.
 struct WaitingRun {
   Case scene = stationCase(2);
-  std::vector<std::uint8_t> intensity;
+  std::vector<std::uint8_t> intensity = std::vector<std::uint8_t>(512 * 512);
   OwnedRun run{scene.problem(), defaultProfile()};
 
   WaitingRun() {
-    const auto pixels = static_cast<std::size_t>(scene.camera.width) *
-                        static_cast<std::size_t>(scene.camera.height);
-    intensity.resize(pixels);
     SurfaceRender surfaces;
     surfaces.intensity = intensity;
     run.localizer.matchOutside(surfaces);
@@ -110,7 +95,7 @@ struct WaitingRun {
       run.localizer.step();
   }
   std::vector<SuppliedMatch> everyTemplate() const {
-    const TemplateSet& templates = run.localizer.workspace().iteration->templates;
+    const TemplateSet& templates = run.workspace.iteration->templates;
     std::vector<SuppliedMatch> all(static_cast<std::size_t>(templates.count));
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i].item = templates.templates[i];
@@ -133,36 +118,29 @@ TEST(LocalizerOutside, WithoutMatches_StepWaits) {
     EXPECT_EQ(report.stage, Stage::kMatch);
     EXPECT_FALSE(report.stage_complete);
   }
-  const Iteration& iteration = *localizer.workspace().iteration;
-  const EdgePixel pixel = iteration.render.pixel(0);
-  EXPECT_GT(*std::max_element(waiting.intensity.begin(), waiting.intensity.end()), 30)
-      << "the shaded render came with the edges, around " << pixel.x;
+  EXPECT_GT(std::ranges::max(waiting.intensity), 30) << "the shaded render came with the edges";
+  const auto capacity = static_cast<std::size_t>(localizer.options().templates.count);
+  EXPECT_EQ(localizer.supplyMatches(std::vector<SuppliedMatch>(capacity + 1)),
+            Status::kCapacityExceeded);
+  EXPECT_TRUE(localizer.awaitsMatches());
   ASSERT_EQ(localizer.supplyMatches(waiting.everyTemplate()), Status::kOk);
   EXPECT_FALSE(localizer.awaitsMatches());
   EXPECT_EQ(localizer.supplyMatches(waiting.everyTemplate()), Status::kInvalidOption);
   EXPECT_TRUE(localizer.step().stage_complete);
+  const Iteration& iteration = *localizer.workspace().iteration;
   EXPECT_EQ(iteration.matches.searched, iteration.templates.count);
   EXPECT_DOUBLE_EQ(
       whsScore(iteration.matches.matches[0].peak.counts, iteration.matches.matches[0].norms), 1.25);
-}
-
-TEST(LocalizerOutside, TooManyMatches_ExceedTheCapacity) {
-  WaitingRun waiting;
-  std::vector<SuppliedMatch> many(
-      static_cast<std::size_t>(waiting.run.localizer.options().templates.count) + 1);
-  EXPECT_EQ(waiting.run.localizer.supplyMatches(many), Status::kCapacityExceeded);
-  EXPECT_TRUE(waiting.run.localizer.awaitsMatches());
 }
 
 TEST(LocalizerOutside, NonFiniteMatches_CountAsNotFound) {
   WaitingRun waiting;
   std::vector<SuppliedMatch> matches = waiting.everyTemplate();
   ASSERT_GT(matches.size(), 6u);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  matches[0].x = nan;
+  matches[0].x = kNan;
   matches[1].y = 1e300;
-  matches[2].item.point_in_station_m.x() = nan;
-  matches[3].score = nan;
+  matches[2].item.point_in_station_m.x() = kNan;
+  matches[3].score = kNan;
   matches[4].found = false;
   matches[5].item.center_x = -1000000;
   Localizer& localizer = waiting.run.localizer;
@@ -176,15 +154,9 @@ TEST(LocalizerOutside, NonFiniteMatches_CountAsNotFound) {
 
 TEST(LocalizerOutside, NoMatchesEndTheRunAsTooFew) {
   WaitingRun waiting;
-  Localizer& localizer = waiting.run.localizer;
-  StepReport report;
-  for (int steps = 0; !report.finished && steps < 1000000; ++steps) {
-    if (localizer.awaitsMatches()) {
-      ASSERT_EQ(localizer.supplyMatches({}), Status::kOk);
-    }
-    report = localizer.step();
-  }
-  EXPECT_EQ(localizer.workspace().status, LocalizationStatus::kTooFewMatches);
+  ASSERT_EQ(waiting.run.localizer.supplyMatches({}), Status::kOk);
+  finishWith(waiting.run, [](const Workspace&) { return std::vector<SuppliedMatch>(); });
+  EXPECT_EQ(waiting.run.workspace.status, LocalizationStatus::kTooFewMatches);
 }
 
 TEST(LocalizerOutside, WithoutMatchOutside_NoMatchesAreAwaited) {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <set>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,9 +22,14 @@
 namespace boresight::test {
 namespace {
 
-bool isRight(const Case& scene, const Pose& estimate) {
-  const PitchError error = pitchError(scene, estimate);
+bool isRight(const Case& scene, const Workspace& end) {
+  const PitchError error = pitchError(scene, end.camera_from_station);
   return std::abs(error.pitches) < 0.1 && error.rest_m < 0.0008;
+}
+
+bool convergedWrong(const Case& scene, const LocalizerOptions& options) {
+  const FinishedRun run(scene, options);
+  return run.workspace.status == LocalizationStatus::kConverged && !isRight(scene, run.workspace);
 }
 
 TEST(LocalizerSearch, RailWhoseEndsAreSeen_IsFoundAtItsPitch) {
@@ -30,18 +38,10 @@ TEST(LocalizerSearch, RailWhoseEndsAreSeen_IsFoundAtItsPitch) {
     for (const std::uint64_t seed : {1u, 2u}) {
       SCOPED_TRACE(off_pitches);
       const Case scene = railCase(Ends::kSeen, off_pitches, 1.7, seed);
-      OwnedRun without(scene.problem(), withoutSearch());
-      without.finish();
-      const Workspace& before = without.localizer.workspace();
-      if (before.status == LocalizationStatus::kConverged &&
-          !isRight(scene, before.camera_from_station))
-        ++wrong_without;
-      OwnedRun run(scene.problem(), defaultProfile());
-      EXPECT_GT(run.finish(), 0);
-      const Workspace& workspace = run.localizer.workspace();
-      EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
-      EXPECT_TRUE(isRight(scene, workspace.camera_from_station));
-      EXPECT_GE(workspace.competing_poses.size(), 0u);
+      wrong_without += convergedWrong(scene, withoutSearch()) ? 1 : 0;
+      const FinishedRun run(scene);
+      EXPECT_STREQ(localizationStatusText(run.workspace.status), "converged");
+      EXPECT_TRUE(isRight(scene, run.workspace));
     }
   }
   EXPECT_GE(wrong_without, 3);  // else these seeds show nothing
@@ -54,16 +54,14 @@ TEST(LocalizerSearch, RailWithoutVisibleEnds_IsAmbiguous) {
     for (const double off_pitches : {0.0, 0.5, -0.75}) {
       SCOPED_TRACE(off_pitches);
       const Case scene = railCase(ends, off_pitches, 1.7, 3);
-      OwnedRun run(scene.problem(), defaultProfile());
-      EXPECT_GT(run.finish(), 0);
-      const Workspace& workspace = run.localizer.workspace();
+      const FinishedRun run(scene);
+      const Workspace& workspace = run.workspace;
       // The visible rest of the hidden ends may suffice.
       if (ends == Ends::kHidden && workspace.status == LocalizationStatus::kConverged &&
-          isRight(scene, workspace.camera_from_station))
+          isRight(scene, workspace))
         continue;
       ++ambiguous;
       EXPECT_STREQ(localizationStatusText(workspace.status), "ambiguous");
-      EXPECT_EQ(workspace.camera_from_station, scene.seed);
       const Pose best = workspace.iteration->camera_from_station;
       double nearest_pitches = 1e9;
       for (const CompetingPose& pose : workspace.competing_poses) {
@@ -78,13 +76,10 @@ TEST(LocalizerSearch, RailWithoutVisibleEnds_IsAmbiguous) {
   EXPECT_GE(ambiguous, 4);
 }
 
-/// The truth lies outside the stated uncertainty: no pose inside is accepted.
+/// No pose inside the stated uncertainty is accepted.
 TEST(LocalizerSearch, RailWhoseTruthIsOutsideTheUncertainty_IsRefused) {
   const Case scene = railCase(Ends::kSeen, 1.0, 0.6, 2);
-  OwnedRun without(scene.problem(), withoutSearch());
-  without.finish();
-  ASSERT_EQ(without.localizer.workspace().status, LocalizationStatus::kConverged);
-  ASSERT_FALSE(isRight(scene, without.localizer.workspace().camera_from_station));
+  ASSERT_TRUE(convergedWrong(scene, withoutSearch()));
   EXPECT_STRNE(localizationStatusText(endOf(scene, defaultProfile())), "converged");
 }
 
@@ -94,24 +89,19 @@ TEST(LocalizerSearch, RightPoseBeyondTheStatedUncertainty_IsComparedWithAWiderSe
     Case scene = stationCase(1);
     scene.seed = scene.truth;
     scene.seed.translation_m.x() += share * scene.uncertainty.translation_m.x();
-    OwnedRun run(scene.problem(), defaultProfile());
-    run.finish();
-    const Workspace& workspace = run.localizer.workspace();
-    EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
-    EXPECT_GT(workspace.probability, kUndoubted);
-    EXPECT_EQ(workspace.candidates.empty(), share > 1.0);
+    const FinishedRun run(scene);
+    EXPECT_STREQ(localizationStatusText(run.workspace.status), "converged");
+    EXPECT_GT(run.workspace.probability, kUndoubted);
+    EXPECT_EQ(run.workspace.candidates.empty(), share > 1.0);
   }
 }
 
 /// Poses that the seed excludes are not ambiguous.
 TEST(LocalizerSearch, RailWhoseSeedExcludesOtherPitches_IsNotAmbiguous) {
   const Case scene = railCase(Ends::kOutside, 0.0, 0.6, 2);
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  const Workspace& workspace = run.localizer.workspace();
-  EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
-  EXPECT_TRUE(isRight(scene, workspace.camera_from_station));
-  EXPECT_GE(workspace.competing_poses.size(), 0u);
+  const FinishedRun run(scene);
+  EXPECT_STREQ(localizationStatusText(run.workspace.status), "converged");
+  EXPECT_TRUE(isRight(scene, run.workspace));
 }
 
 /// The seed turned about the view through the station's middle, within its stated uncertainty.
@@ -126,14 +116,21 @@ Case turnedCase(std::uint64_t seed, double turn_rad) {
   return turned;
 }
 
-TEST(LocalizerSearch, TurnedSeed_IsFoundWithinAStatedUncertainty) {
+TEST(LocalizerSearch, SeedFarOff_IsFoundWithinAStatedUncertainty) {
   for (const double turn_deg : {75.0, 180.0}) {
     SCOPED_TRACE(turn_deg);
     const Case scene = turnedCase(3, turn_deg * kDegree_rad);
     EXPECT_NE(endOf(scene, withoutSearch()), LocalizationStatus::kConverged);
-    OwnedRun run(scene.problem(), defaultProfile());
-    EXPECT_GT(run.finish(), 0);
-    expectTruth(scene, run.localizer.workspace());
+    expectTruth(scene, FinishedRun(scene).workspace);
+  }
+  for (const Eigen::Vector3d& off_m :
+       {Eigen::Vector3d(0.0, 0.0, 0.075), Eigen::Vector3d(0.0, 0.0, -0.075),
+        Eigen::Vector3d(0.06, -0.03, 0.03)}) {
+    SCOPED_TRACE(off_m.transpose());
+    Case scene = stationCase(7);
+    scene.seed.translation_m = scene.truth.translation_m + off_m;
+    scene.uncertainty.translation_m.setConstant(0.08);
+    expectTruth(scene, FinishedRun(scene).workspace);
   }
 }
 
@@ -142,28 +139,8 @@ TEST(LocalizerSearch, SeedTurnedAboutTheCamera_IsFoundOffTheOpticalAxis) {
   scene.truth.translation_m += Eigen::Vector3d(0.06, 0.01, 0.2);
   const Picture picture = takePicture(scene.solid, scene.camera, scene.truth);
   scene.picture = &picture;
-  const Eigen::Quaterniond turn = rotationExp({0.0, 0.0, 175.0 * kDegree_rad});
-  scene.seed.rotation = (turn * scene.truth.rotation).normalized();
-  scene.seed.translation_m = turn * scene.truth.translation_m;
-  scene.uncertainty.pivot_in_camera_m.setZero();
-  scene.uncertainty.rotation_rad.z() = kPi;
-  OwnedRun run(scene.problem(), defaultProfile());
-  EXPECT_GT(run.finish(), 0);
-  expectTruth(scene, run.localizer.workspace());
-}
-
-TEST(LocalizerSearch, Seed75MillimetresOff_IsFoundWithinAStatedUncertainty) {
-  for (const Eigen::Vector3d& off_m :
-       {Eigen::Vector3d(0.0, 0.0, 0.075), Eigen::Vector3d(0.0, 0.0, -0.075),
-        Eigen::Vector3d(0.06, -0.03, 0.03)}) {
-    SCOPED_TRACE(off_m.transpose());
-    Case scene = stationCase(7);
-    scene.seed.translation_m = scene.truth.translation_m + off_m;
-    scene.uncertainty.translation_m.setConstant(0.08);
-    OwnedRun run(scene.problem(), defaultProfile());
-    run.finish();
-    expectTruth(scene, run.localizer.workspace());
-  }
+  turnAboutTheCamera(scene, 175.0 * kDegree_rad);
+  expectTruth(scene, FinishedRun(scene).workspace);
 }
 
 /// A row of `length_px` pixels is averaged, as a camera that moves to the side does.
@@ -194,10 +171,9 @@ TEST(LocalizerSearch, FocalLengthStated5PercentTooLong_IsRefusedAsACameraMismatc
   scene.camera.fx *= 1.05;
   scene.camera.fy *= 1.05;
   ASSERT_EQ(prepareCamera(scene.camera), Status::kOk);
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  EXPECT_STREQ(localizationStatusText(run.localizer.workspace().status), "camera_mismatch");
-  EXPECT_LT(run.localizer.workspace().focal.change, -0.02);
+  const FinishedRun run(scene);
+  EXPECT_STREQ(localizationStatusText(run.workspace.status), "camera_mismatch");
+  EXPECT_LT(run.workspace.focal.change, -0.02);
 }
 
 TEST(LocalizerSearch, WrongMeshWithASharpImage_IsNotReportedAsBlurred) {
@@ -216,59 +192,43 @@ TEST(LocalizerSearch, WrongMeshWithASharpImage_IsNotReportedAsBlurred) {
 
 TEST(LocalizerSearch, Candidates_AreOrderedByEvidenceAndTheFirstIsTheResult) {
   const Case scene = stationCase(3);
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  const Workspace& workspace = run.localizer.workspace();
-  ASSERT_FALSE(workspace.candidates.empty());
-  EXPECT_LE(workspace.candidates.size(), static_cast<std::size_t>(PoseSearch::kMaxCandidates));
-  EXPECT_TRUE(
-      std::is_sorted(workspace.candidates.begin(), workspace.candidates.end(),
-                     [](const auto& a, const auto& b) { return a.rank_nats() > b.rank_nats(); }));
-  const BoundingBox box = matchedBounds(scene.solid.view());
-  EXPECT_LT(displacementBetween_px(workspace.candidates[0].camera_from_station, scene.truth, box,
-                                   scene.camera),
+  const FinishedRun run(scene);
+  const std::span<const PoseCandidate> candidates = run.workspace.candidates;
+  ASSERT_FALSE(candidates.empty());
+  EXPECT_LE(candidates.size(), static_cast<std::size_t>(PoseSearch::kMaxCandidates));
+  EXPECT_TRUE(std::ranges::is_sorted(candidates, std::greater(), &PoseCandidate::rank_nats));
+  EXPECT_LT(displacementBetween_px(candidates[0].camera_from_station, scene.truth,
+                                   matchedBounds(scene.solid.view()), scene.camera),
             3.0);
-  EXPECT_GT(workspace.probability, 0.9);
+  EXPECT_GT(run.workspace.probability, 0.9);
 }
 
 /// One whose roll is not known has several candidates, one on a rail without ends another of the
-/// same evidence.
-TEST(LocalizerSearch, OtherCandidates_AreRefinedOnlyWhereTheFirstDoesNotConvince) {
-  const auto searchesOf = [](const Case& scene, LocalizationStatus end) {
-    OwnedRun run(scene.problem(), defaultProfile());
-    int searches = 0;
-    run.finish([&](const StepReport& report) {
-      searches += report.stage == Stage::kSearch && report.stage_complete ? 1 : 0;
-    });
-    EXPECT_EQ(run.localizer.workspace().status, end);
-    return searches;
-  };
-  Case convincing = stationCase(3);
-  convincing.uncertainty.rotation_rad.z() = kPi;
-  EXPECT_EQ(searchesOf(convincing, LocalizationStatus::kConverged), 1);
-  const Case rail = railCase(Ends::kOutside, 0.5, 1.7, 3);
-  EXPECT_EQ(searchesOf(rail, LocalizationStatus::kAmbiguous), 2);
-}
-
-/// Restarts move a convincing pose to both sides: its render shows the scene for all of them.
-TEST(LocalizerSearch, RestartsOfAConvincingPose_ShareItsRender) {
+/// same evidence. Restarts move a convincing pose to both sides: its render shows the scene for all
+/// of them.
+TEST(LocalizerSearch, FirstCandidate_IsRestartedAndTheOthersWaitUnlessItDoesNotConvince) {
   Case scene = stationCase(3);
-  scene.uncertainty.rotation_rad.z() = kPi;  // candidates wait
+  scene.uncertainty.rotation_rad.z() = kPi;
   OwnedRun run(scene.problem(), defaultProfile());
   const RunLevels levels = levelsOf(sizeOf(scene.problem()), defaultProfile());
-  std::vector<Pose> found;
-  std::vector<Pose> restarted;
-  std::vector<std::int32_t> edges;
+  std::vector<Pose> found, restarted;
+  std::set<std::int32_t> edges;
+  int searches = 0;
+  const auto count = [&searches](const StepReport& report) {
+    searches += report.stage == Stage::kSearch && report.stage_complete ? 1 : 0;
+  };
   run.finish([&](const StepReport& report) {
+    count(report);
     if (!report.iteration_complete) return;
-    const Iteration& iteration = *run.localizer.workspace().iteration;
+    const Iteration& iteration = *run.workspace.iteration;
     const Pose& rendered = iteration.render.camera_from_station;
     const bool is_restart = iteration.level == levels.coarse &&
-                            std::find(found.begin(), found.end(), rendered) != found.end() &&
+                            std::ranges::count(found, rendered) > 0 &&
                             rendered != iteration.camera_from_station_before;
     if (is_restart) {
+      EXPECT_EQ(std::ranges::count(restarted, iteration.camera_from_station_before), 0);
       restarted.push_back(iteration.camera_from_station_before);
-      edges.push_back(iteration.render.pixel_count);
+      edges.insert(iteration.render.pixel_count);
       // Each ends where it has reached the best pose again.
       EXPECT_LT(displacementBetween_px(rendered, iteration.camera_from_station,
                                        matchedBounds(scene.problem().mesh), scene.problem().camera),
@@ -276,99 +236,69 @@ TEST(LocalizerSearch, RestartsOfAConvincingPose_ShareItsRender) {
     }
     found.push_back(iteration.camera_from_station);
   });
-  ASSERT_EQ(restarted.size(), 4u);
-  EXPECT_EQ(std::count(edges.begin(), edges.end(), edges.front()), 4);
-  for (std::size_t i = 0; i < 4; ++i)
-    EXPECT_EQ(std::count(restarted.begin(), restarted.end(), restarted[i]), 1);
+  EXPECT_EQ(restarted.size(), 4u);
+  EXPECT_EQ(edges.size(), 1u);
+  EXPECT_EQ(run.workspace.status, LocalizationStatus::kConverged);
+  EXPECT_EQ(searches, 1);
+
+  const Case rail = railCase(Ends::kOutside, 0.5, 1.7, 3);
+  OwnedRun run_of_rail(rail.problem(), defaultProfile());
+  searches = 0;
+  run_of_rail.finish(count);
+  EXPECT_EQ(run_of_rail.workspace.status, LocalizationStatus::kAmbiguous);
+  EXPECT_EQ(searches, 2);
 }
 
-TEST(LocalizerSearch, FinalPose_HasTheContoursOfItsHypothesisAndItsOwnSupport) {
-  const Case scene = stationCase(3);
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  const Workspace& workspace = run.localizer.workspace();
-  ASSERT_EQ(workspace.status, LocalizationStatus::kConverged);
-  const PoseHypothesis& best =
-      workspace.hypotheses[static_cast<std::size_t>(workspace.best_hypothesis)];
-  for (std::size_t view = 0; view < workspace.evidence.contours.size(); ++view)
-    EXPECT_EQ(workspace.evidence.contours[view].total_nats(),
-              best.evidence.contours[view].total_nats());
-  EXPECT_EQ(workspace.evidence.edge_support, workspace.support.share());
-  EXPECT_EQ(workspace.probability, workspace.evidence.probability());
-  EXPECT_NE(workspace.camera_from_station, best.camera_from_station);
-}
-
-TEST(LocalizerSearch, ResultIsTheHypothesisWithTheBestScore) {
+TEST(LocalizerSearch, Result_IsTheHypothesisWithTheBestScoreAndHasItsContours) {
   for (const std::uint64_t seed : {3U, 5U}) {
     const Case scene = stationCase(seed);
-    OwnedRun run(scene.problem(), defaultProfile());
-    run.finish();
-    const Workspace& workspace = run.localizer.workspace();
+    const FinishedRun run(scene);
+    const Workspace& workspace = run.workspace;
     ASSERT_EQ(workspace.status, LocalizationStatus::kConverged);
     ASSERT_GE(workspace.best_hypothesis, 0);
     const auto at = static_cast<std::size_t>(workspace.best_hypothesis);
     const PoseHypothesis& best = workspace.hypotheses[at];
     for (const PoseHypothesis& other : workspace.hypotheses) EXPECT_LE(other.score, best.score);
     // Its last iteration is repeated with a new render and more edge places.
+    EXPECT_NE(workspace.camera_from_station, best.camera_from_station);
     const PoseError moved =
         poseError(scene.solid, best.camera_from_station, workspace.camera_from_station);
     EXPECT_LT(moved.centre_m, 4e-5);
     EXPECT_LT(moved.angle_rad, 4e-4);
     EXPECT_NEAR(workspace.probability, best.probability, 0.01);
+    EXPECT_EQ(workspace.probability, workspace.evidence.probability());
+    EXPECT_EQ(workspace.evidence.edge_support, workspace.support.share());
+    for (std::size_t view = 0; view < workspace.evidence.contours.size(); ++view)
+      EXPECT_EQ(workspace.evidence.contours[view].total_nats(),
+                best.evidence.contours[view].total_nats());
   }
 }
 
 TEST(LocalizerSearch, MirroredMesh_IsRefused) {
   for (const std::uint64_t seed : {1U, 3U, 4U}) {
     Case scene = stationCase(seed);
-    const auto twice_middle_m =
-        static_cast<float>(2.0 * matchedBounds(scene.solid.view()).centre().x());
-    for (Eigen::Vector3f& vertex : scene.solid.vertices) vertex.x() = twice_middle_m - vertex.x();
-    for (Face& face : scene.solid.faces) std::swap(face.vertex[1], face.vertex[2]);
+    scene.solid = mirroredSolid(scene.solid);
     LocalizerOptions options = defaultProfile();
     options.support.min_probability = 0.0;  // only the comparison refuses it
     EXPECT_NE(endOf(scene, options), LocalizationStatus::kConverged);
   }
 }
 
-TEST(LocalizerSearch, Noise_HasNoPose) {
-  const Picture noise = noisePicture(512, 512, 5);
-  Case scene = stationCase(1);
-  scene.picture = &noise;
-  EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kConverged);
-  scene.uncertainty.rotation_rad.z() = kPi;
-  EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kConverged);
-}
-
-TEST(LocalizerSearch, DeadImage_FailsWithTheSeed) {
-  const Picture flat = flatPicture(512, 512, 80);
-  Case scene = stationCase(1);
-  scene.picture = &flat;
-  OwnedRun run(scene.problem(), defaultProfile());
-  EXPECT_GT(run.finish(), 0);
-  EXPECT_NE(run.localizer.workspace().status, LocalizationStatus::kConverged);
-  EXPECT_EQ(run.localizer.workspace().camera_from_station, scene.seed);
-}
-
 TEST(LocalizerSearch, UnsupportedPose_IsFollowedByFurtherAttempts) {
   const Case scene = stationCase(3);
   LocalizerOptions options = defaultProfile();
   options.support.min_probability = 1.0;
-  OwnedRun run(scene.problem(), options);
-  EXPECT_GT(run.finish(), 0);
-  EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kNotSupported);
-  EXPECT_GT(run.localizer.workspace().attempts, 1);
-  EXPECT_LE(run.localizer.workspace().attempts, PoseComparison::kMostHypotheses + 1);
+  const FinishedRun run(scene, options);
+  EXPECT_EQ(run.workspace.status, LocalizationStatus::kNotSupported);
+  EXPECT_GT(run.workspace.attempts, 1);
+  EXPECT_LE(run.workspace.attempts, PoseComparison::kMostHypotheses + 1);
 }
 
 TEST(LocalizerSearch, AnyKernelsAndWorkers_GiveTheSameBits) {
   const Case scene = turnedCase(4, -130.0 * kDegree_rad);
-  const LocalizationProblem problem = scene.problem();
-  OwnedRun plain(problem, defaultProfile());
-  plain.finish();
+  const Digest plain = digestOf(scene.problem(), defaultProfile());
   for (const int workers : {1, 3})
-    EXPECT_EQ(sharedDigest(problem, defaultProfile(), workers), plain.localizer.digest())
-        << workers;
+    EXPECT_EQ(sharedDigest(scene.problem(), defaultProfile(), workers), plain) << workers;
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reports of `step()`.
+#include <map>
 #include <numeric>
-#include <thread>
+#include <set>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,189 +19,135 @@ namespace {
 
 /// Stages that may follow a completed one.
 bool mayFollow(Stage before, Stage next) {
-  switch (before) {
-    case Stage::kEdges:
-      return next == Stage::kRender || next == Stage::kSearch;
-    case Stage::kSearch:
-      return next == Stage::kRender;
-    case Stage::kRender:
-      return next == Stage::kTemplates || next == Stage::kRefine;
-    case Stage::kTemplates:
-      return next == Stage::kMatch;
-    case Stage::kMatch:
-      return next == Stage::kPose;
-    case Stage::kPose:
-    case Stage::kRefine:
-      return next == Stage::kRender || next == Stage::kSupport;
-    case Stage::kSupport:  // of a pose, then another pose, or of competing poses
-      return next == Stage::kRender || next == Stage::kSupport || next == Stage::kFinished;
-    case Stage::kFinished:
-      return next == Stage::kFinished;
-  }
-  return false;
+  static const std::map<Stage, std::set<Stage>> followers = {
+      {Stage::kEdges, {Stage::kRender, Stage::kSearch}},
+      {Stage::kSearch, {Stage::kRender}},
+      {Stage::kRender, {Stage::kTemplates, Stage::kRefine}},
+      {Stage::kTemplates, {Stage::kMatch}},
+      {Stage::kMatch, {Stage::kPose}},
+      {Stage::kPose, {Stage::kRender, Stage::kSupport}},
+      {Stage::kRefine, {Stage::kRender, Stage::kSupport}},
+      // Of a pose, then another pose, or of competing poses.
+      {Stage::kSupport, {Stage::kRender, Stage::kSupport, Stage::kFinished}},
+      {Stage::kFinished, {Stage::kFinished}}};
+  return followers.at(before).contains(next);
 }
 
-TEST(LocalizerSteps, StagesComeInOrder) {
-  for (const bool paper : {false, true}) {
-    const Case scene = stationCase(2);
-    OwnedRun run(scene.problem(), paper ? paperProfile() : defaultProfile());
+/// Runs to the end, with `each` after every step: the numbers of completed iterations must run on.
+template <class Each>
+void finishCounting(OwnedRun& run, const Each& each) {
+  int complete = 0;
+  run.finish([&](const StepReport& report) {
+    each(report);
+    if (!report.iteration_complete) return;
+    EXPECT_TRUE(report.stage_complete);
+    ASSERT_NE(run.workspace.iteration, nullptr);
+    EXPECT_EQ(run.workspace.iteration->index, complete++);
+  });
+  EXPECT_EQ(complete, run.workspace.iterations);
+}
+
+TEST(LocalizerSteps, StagesComeInOrderAndEachIterationIsCompleteOnce) {
+  const Case scene = stationCase(2);
+  for (const LocalizerOptions& options : {defaultProfile(), withoutSearch(), paperProfile()}) {
+    OwnedRun run(scene.problem(), options);
     Stage stage = Stage::kEdges;
     bool stage_complete = false;
-    run.finish([&](const StepReport& report) {
-      if (stage_complete) {
-        EXPECT_TRUE(mayFollow(stage, report.stage))
-            << stageText(stage) << " -> " << stageText(report.stage);
-      } else {
-        EXPECT_EQ(report.stage, stage) << stageText(report.stage);
-      }
+    finishCounting(run, [&](const StepReport& report) {
+      EXPECT_TRUE(stage_complete ? mayFollow(stage, report.stage) : report.stage == stage)
+          << stageText(stage) << " -> " << stageText(report.stage);
       stage = report.stage;
       stage_complete = report.stage_complete;
-      EXPECT_EQ(run.localizer.workspace().status == LocalizationStatus::kRunning, !report.finished);
+      EXPECT_EQ(run.workspace.status == LocalizationStatus::kRunning, !report.finished);
     });
-    const bool converged = run.localizer.workspace().status == LocalizationStatus::kConverged;
+    const LocalizationStatus status = run.workspace.status;
+    const bool converged = status == LocalizationStatus::kConverged;
     EXPECT_EQ(stage, converged ? Stage::kSupport : Stage::kPose);
-    EXPECT_TRUE(converged || paper);
+    EXPECT_TRUE(converged || !options.refinement.enabled) << "only the paper's may fail";
     EXPECT_TRUE(stage_complete);
-  }
-}
+    EXPECT_GE(run.workspace.iterations, options.search.enabled ? 3 : 4);
 
-/// Counts what is reported; the numbers of the iterations must run on.
-struct Tally {
-  int complete = 0;
-  int at_support = 0;
-  int steps = 0;
-  LocalizationStatus last = LocalizationStatus::kRunning;
-
-  explicit Tally(Localizer& localizer) {
-    StepReport report;
-    while (!report.finished && steps < 100000) {
-      report = localizer.step();
-      ++steps;
-      if (!report.iteration_complete) continue;
-      const Iteration* iteration = localizer.workspace().iteration;
-      EXPECT_NE(iteration, nullptr);
-      if (iteration == nullptr) break;
-      EXPECT_EQ(iteration->index, complete);
-      EXPECT_TRUE(report.stage_complete);
-      ++complete;
-      at_support += report.stage == Stage::kSupport ? 1 : 0;
-      last = iteration->status;
+    const Digest digest = run.localizer.digest();
+    for (int i = 0; i < 3; ++i) {
+      const StepReport after = run.localizer.step();
+      EXPECT_TRUE(after.finished);
+      EXPECT_EQ(after.stage, Stage::kFinished);
+      EXPECT_FALSE(after.iteration_complete || after.stage_complete);
     }
-  }
-};
-
-TEST(LocalizerSteps, EachIterationIsCompleteOnce) {
-  const Case scene = stationCase(2);
-  for (const bool paper : {false, true}) {
-    OwnedRun run(scene.problem(), paper ? paperProfile() : withoutSearch());
-    const Tally tally(run.localizer);
-    EXPECT_EQ(tally.complete, run.localizer.workspace().iterations);
-    EXPECT_GE(tally.complete, 4);
+    EXPECT_EQ(run.localizer.digest(), digest) << "a step after the end does nothing";
+    EXPECT_EQ(run.workspace.status, status);
   }
 }
 
 TEST(LocalizerSteps, EachIterationOfAFailedRunIsCompleteOnce) {
-  const Case scene = stationCase(2);
-  const Picture faint_picture = faintened(*scene.picture);
-  Case faint = scene;
-  faint.picture = &faint_picture;
-  LocalizerOptions options[4];
-  for (LocalizerOptions& each : options) each.search.enabled = false;
-  options[0].loop.max_iterations = 2;
-  options[1].support.min_support = 0.99;
-  options[2].loop.max_rolled_hypotheses = 1;
-  options[3].templates.count = 4;  // fewer than a run needs
-  const LocalizationStatus ends[] = {
-      LocalizationStatus::kIterationLimit, LocalizationStatus::kNotSupported,
-      LocalizationStatus::kPnpFailed, LocalizationStatus::kTooFewTemplates};
-  for (int i = 0; i < 4; ++i) {
-    SCOPED_TRACE(localizationStatusText(ends[i]));
-    OwnedRun run(i == 2 ? faint.problem() : scene.problem(), options[i]);
-    const Tally tally(run.localizer);
-    EXPECT_EQ(tally.complete, run.localizer.workspace().iterations);
-    EXPECT_EQ(tally.at_support, 0);
-    EXPECT_EQ(run.localizer.workspace().status, ends[i]);
-    EXPECT_EQ(run.localizer.workspace().iteration->status, ends[i]);
-    EXPECT_EQ(run.localizer.workspace().attempts, 3);
+  Case scene = stationCase(2);
+  const Picture sharp = *scene.picture;
+  const Picture faint = faintened(sharp);
+  LocalizerOptions few_iterations = withoutSearch();
+  few_iterations.loop.max_iterations = 2;
+  LocalizerOptions strict = withoutSearch();
+  strict.support.min_support = 0.99;
+  LocalizerOptions unrolled = withoutSearch();
+  unrolled.loop.max_rolled_hypotheses = 1;
+  LocalizerOptions few_templates = withoutSearch();
+  few_templates.templates.count = 4;  // fewer than a run needs
+  const struct {
+    const Picture& picture;
+    const LocalizerOptions& options;
+    LocalizationStatus end;
+  } runs[] = {{sharp, few_iterations, LocalizationStatus::kIterationLimit},
+              {sharp, strict, LocalizationStatus::kNotSupported},
+              {faint, unrolled, LocalizationStatus::kPnpFailed},
+              {sharp, few_templates, LocalizationStatus::kTooFewTemplates}};
+  for (const auto& [picture, options, end] : runs) {
+    SCOPED_TRACE(localizationStatusText(end));
+    scene.picture = &picture;
+    OwnedRun run(scene.problem(), options);
+    finishCounting(run, [](const StepReport& report) {
+      EXPECT_FALSE(report.iteration_complete && report.stage == Stage::kSupport);
+    });
+    EXPECT_EQ(run.workspace.status, end);
+    EXPECT_EQ(run.workspace.iteration->status, end);
+    EXPECT_EQ(run.workspace.attempts, 3);
   }
-}
-
-TEST(LocalizerSteps, StepAfterTheEnd_DoesNothing) {
-  const Case scene = stationCase(2);
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  const auto digest = run.localizer.digest();
-  for (int i = 0; i < 3; ++i) {
-    const StepReport report = run.localizer.step();
-    EXPECT_TRUE(report.finished);
-    EXPECT_EQ(report.stage, Stage::kFinished);
-    EXPECT_FALSE(report.iteration_complete);
-    EXPECT_FALSE(report.stage_complete);
-  }
-  EXPECT_EQ(run.localizer.digest(), digest);
-  EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kConverged);
 }
 
 TEST(LocalizerSteps, SlicesAreSmall) {
   const Case scene = stationCase(2);
   OwnedRun run(scene.problem(), defaultProfile());
-  int edges = 0;
-  int render = 0, renders = 0;
+  std::map<Stage, int> slices;
+  int renders = 0, templates = 0, refinements = 0;
   Pose rendered;
-  int match = 0, templates = 0;
-  int refine = 0, rounds_at_least = 0;
   run.finish([&](const StepReport& report) {
-    const Workspace& workspace = run.localizer.workspace();
-    edges += report.stage == Stage::kEdges ? 1 : 0;
-    render += report.stage == Stage::kRender ? 1 : 0;
-    match += report.stage == Stage::kMatch ? 1 : 0;
-    refine += report.stage == Stage::kRefine ? 1 : 0;
+    ++slices[report.stage];
     if (!report.stage_complete) return;
     if (report.stage == Stage::kRender) {  // a render that is kept takes no slices
-      const Pose& from = workspace.iteration->render.camera_from_station;
+      const Pose& from = run.workspace.iteration->render.camera_from_station;
       renders += from != rendered ? 1 : 0;
       rendered = from;
     }
-    if (report.stage == Stage::kTemplates) templates += workspace.iteration->templates.count;
-    if (report.stage == Stage::kRefine) rounds_at_least += 2;
+    if (report.stage == Stage::kTemplates) templates += run.workspace.iteration->templates.count;
+    if (report.stage == Stage::kRefine) ++refinements;
   });
-  EXPECT_GE(edges, 5 * 512 * 512 / kEdgeSlice);  // as many as passes over the pixels
-  EXPECT_GE(render, renders * 512 / EdgeRenderer::kBandRows / 2);  // the station fills half
-  EXPECT_GE(match, templates);         // a template is at least one step
-  EXPECT_GE(refine, rounds_at_least);  // a round is one step
+  EXPECT_GE(slices[Stage::kEdges], 5 * 512 * 512 / kEdgeSlice);  // as many as passes over pixels
+  // The station fills half of the image.
+  EXPECT_GE(slices[Stage::kRender], renders * 512 / EdgeRenderer::kBandRows / 2);
+  EXPECT_GE(slices[Stage::kMatch], templates);         // a template is at least one step
+  EXPECT_GE(slices[Stage::kRefine], 2 * refinements);  // a round is one step
 }
 
 TEST(LocalizerSteps, TextsAreDistinct) {
-  for (int a = 0; a <= static_cast<int>(Stage::kFinished); ++a) {
-    EXPECT_STRNE(stageText(static_cast<Stage>(a)), "unknown");
-    for (int b = 0; b < a; ++b)
-      EXPECT_STRNE(stageText(static_cast<Stage>(a)), stageText(static_cast<Stage>(b)));
-  }
-  for (int a = 0; a <= static_cast<int>(LocalizationStatus::kFault); ++a) {
-    EXPECT_STRNE(localizationStatusText(static_cast<LocalizationStatus>(a)), "unknown");
-    for (int b = 0; b < a; ++b) {
-      EXPECT_STRNE(localizationStatusText(static_cast<LocalizationStatus>(a)),
-                   localizationStatusText(static_cast<LocalizationStatus>(b)));
-    }
+  std::set<std::string_view> stages = {"unknown"};
+  for (int stage = 0; stage <= static_cast<int>(Stage::kFinished); ++stage)
+    EXPECT_TRUE(stages.insert(stageText(static_cast<Stage>(stage))).second) << stage;
+  std::set<std::string_view> texts = {"unknown"};
+  for (int status = 0; status <= static_cast<int>(kLastLocalizationStatus); ++status) {
+    const char* text = localizationStatusText(static_cast<LocalizationStatus>(status));
+    EXPECT_TRUE(texts.insert(text).second) << status;
   }
 }
 
 // Stages run by several workers: the same bits for any assignment and order of tasks.
-
-/// A run with scratch for some workers.
-struct SharedRun {
-  std::vector<std::byte> memory;
-  Localizer localizer;
-
-  SharedRun(const LocalizationProblem& problem, const LocalizerOptions& options, int workers)
-      : memory(bytesFor(problem, options, workers)), localizer(problem, options, memory, workers) {}
-  static std::size_t bytesFor(const LocalizationProblem& problem, const LocalizerOptions& options,
-                              int workers) {
-    std::size_t bytes = 0;
-    EXPECT_EQ(requiredBytes(sizeOf(problem), options, workers, bytes), Status::kOk);
-    return bytes;
-  }
-};
 
 std::vector<int> shuffled(int count, Random& random) {
   std::vector<int> order(static_cast<std::size_t>(count));
@@ -212,14 +161,11 @@ TEST(LocalizerTasks, AnyOrderWorkerOrSubset_GivesTheSameBits) {
   const Case scene = stationCase(4, true);
   for (const bool paper : {false, true}) {
     const LocalizerOptions options = paper ? paperProfile() : withoutSearch();
-    OwnedRun plain(scene.problem(), options);
-    plain.finish();
+    const Digest plain = digestOf(scene.problem(), options);
     for (const std::uint32_t share : {100u, 50u, 3u}) {
-      SharedRun run(scene.problem(), options, 3);
+      OwnedRun run(scene.problem(), options, 3);
       Random random(share);
-      bool rendered = false;
-      bool matched = false;
-      bool refined = false;
+      std::set<Stage> shared;
       StepReport report;
       while (!report.finished) {
         for (const int task : shuffled(run.localizer.tasks(), random)) {
@@ -228,14 +174,12 @@ TEST(LocalizerTasks, AnyOrderWorkerOrSubset_GivesTheSameBits) {
         }
         const bool had_tasks = run.localizer.tasks() > 0;
         report = run.localizer.step();
-        rendered = rendered || (had_tasks && report.stage == Stage::kRender);
-        matched = matched || (had_tasks && report.stage == Stage::kMatch);
-        refined = refined || (had_tasks && report.stage == Stage::kRefine);
+        if (had_tasks) shared.insert(report.stage);
       }
-      EXPECT_TRUE(rendered);
-      EXPECT_TRUE(matched);
-      EXPECT_EQ(refined, !paper);
-      EXPECT_EQ(run.localizer.digest(), plain.localizer.digest()) << share;
+      EXPECT_TRUE(shared.contains(Stage::kRender));
+      EXPECT_TRUE(shared.contains(Stage::kMatch));
+      EXPECT_EQ(shared.contains(Stage::kRefine), !paper);
+      EXPECT_EQ(run.localizer.digest(), plain) << share;
       EXPECT_EQ(run.localizer.tasks(), 0);
     }
   }
@@ -243,48 +187,19 @@ TEST(LocalizerTasks, AnyOrderWorkerOrSubset_GivesTheSameBits) {
 
 TEST(LocalizerTasks, ParallelThreads_GiveTheSameBits) {
   const Case scene = stationCase(6);
-  OwnedRun plain(scene.problem(), defaultProfile());
-  plain.finish();
-  for (const int workers : {2, 3, 8}) {
-    SharedRun run(scene.problem(), defaultProfile(), workers);
-    do {
-      const int tasks = run.localizer.tasks();
-      std::vector<std::jthread> threads;
-      for (int worker = 0; worker < workers && tasks > 0; ++worker) {
-        threads.emplace_back([&run, tasks, worker, workers] {
-          for (int task = worker; task < tasks; task += workers)
-            run.localizer.runTask(task, worker);
-        });
-      }
-    } while (!run.localizer.step().finished);
-    EXPECT_EQ(run.localizer.digest(), plain.localizer.digest()) << workers;
-  }
-}
-
-/// A fault during a shared render whose tasks are all left to step().
-TEST(LocalizerTasks, SharedTasks_GiveTheSameFaults) {
-  const Case scene = stationCase(4);
-  LocalizerOptions options = defaultProfile();
-  options.render.max_edge_pixels = 1000;
-  OwnedRun plain(scene.problem(), options);
-  plain.finish();
-  ASSERT_EQ(plain.localizer.workspace().fault, Status::kCapacityExceeded);
-  for (const int workers : {2, 3}) {
-    SharedRun run(scene.problem(), options, workers);
-    while (!run.localizer.step().finished) {
-    }
-    EXPECT_EQ(run.localizer.workspace().fault, Status::kCapacityExceeded);
-    EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kFault);
-    EXPECT_EQ(run.localizer.digest(), plain.localizer.digest());
-  }
+  const LocalizationProblem problem = scene.problem();
+  const Digest plain = digestOf(problem, defaultProfile());
+  for (const int workers : {2, 3, 8})
+    EXPECT_EQ(sharedDigest(problem, defaultProfile(), workers, Kernels::kPortable), plain)
+        << workers;
 }
 
 TEST(LocalizerTasks, StepAfterAllTasks_CompletesTheStage) {
   const Case scene = stationCase(4);
-  SharedRun run(scene.problem(), withoutSearch(), 1);
+  OwnedRun run(scene.problem(), withoutSearch());
   EXPECT_EQ(run.localizer.tasks(), 0);
   while (run.localizer.tasks() == 0) ASSERT_FALSE(run.localizer.step().finished);
-  EXPECT_EQ(run.localizer.tasks(), run.localizer.workspace().iteration->templates.count);
+  EXPECT_EQ(run.localizer.tasks(), run.workspace.iteration->templates.count);
   for (int task = 0; task < run.localizer.tasks(); ++task) run.localizer.runTask(task, 0);
   const StepReport report = run.localizer.step();
   EXPECT_EQ(report.stage, Stage::kMatch);
@@ -293,32 +208,25 @@ TEST(LocalizerTasks, StepAfterAllTasks_CompletesTheStage) {
 
 TEST(LocalizerTasks, TasksOutOfRange_DoNothing) {
   const Case scene = stationCase(4);
-  OwnedRun plain(scene.problem(), defaultProfile());
-  plain.finish();
-  SharedRun run(scene.problem(), defaultProfile(), 2);
+  OwnedRun run(scene.problem(), defaultProfile(), 2);
   do {
     const int tasks = run.localizer.tasks();
-    run.localizer.runTask(-1, 0);
-    run.localizer.runTask(tasks, 0);
-    run.localizer.runTask(0, -1);
-    run.localizer.runTask(0, 2);
+    for (const auto& [task, worker] : {std::pair{-1, 0}, {tasks, 0}, {0, -1}, {0, 2}})
+      run.localizer.runTask(task, worker);
   } while (!run.localizer.step().finished);
-  EXPECT_EQ(run.localizer.digest(), plain.localizer.digest());
+  EXPECT_EQ(run.localizer.digest(), digestOf(scene.problem(), defaultProfile()));
 }
 
 TEST(LocalizerTasks, MoreWorkers_NeedMoreMemory) {
   const Case scene = stationCase(1);
   const ProblemSize size = sizeOf(scene.problem());
-  std::size_t bytes_of_one = 0;
-  std::size_t bytes_of_two = 0;
-  std::size_t many = 0;
-  ASSERT_EQ(requiredBytes(size, {}, bytes_of_one), Status::kOk);
-  ASSERT_EQ(requiredBytes(size, {}, 2, bytes_of_two), Status::kOk);
-  ASSERT_EQ(requiredBytes(size, {}, 64, many), Status::kOk);
+  const std::size_t bytes_of_one = blockFor(scene.problem(), {}).size();
+  const std::size_t bytes_of_two = blockFor(scene.problem(), {}, 2).size();
   EXPECT_LT(bytes_of_one, bytes_of_two);
-  EXPECT_LT(bytes_of_two, many);
+  EXPECT_LT(bytes_of_two, blockFor(scene.problem(), {}, 64).size());
   for (const int workers : {-1, 0, Localizer::kMaxWorkers + 1}) {
-    EXPECT_EQ(requiredBytes(size, {}, workers, many), Status::kInvalidOption);
+    std::size_t bytes = 0;
+    EXPECT_EQ(requiredBytes(size, {}, workers, bytes), Status::kInvalidOption);
     std::vector<std::byte> memory(std::size_t{1} << 23);
     Localizer localizer(scene.problem(), {}, memory, workers);
     EXPECT_EQ(localizer.status(), Status::kInvalidOption);

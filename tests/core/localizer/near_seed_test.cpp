@@ -18,73 +18,52 @@ Case nearCase(std::uint64_t seed, double size_m, double size_deg, double share =
   return scene;
 }
 
-/// 0.6 mm and 0.12 deg move the scene by 2 px of the 3 px that a refinement searches.
-TEST(NearSeed, WithinReachOfARefinement_IsRefinedAtOnce) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    SCOPED_TRACE(seed);
-    const Case scene = nearCase(seed, 0.0006, 0.12);
-    OwnedRun run(scene.problem(), defaultProfile());
-    run.finish();
-    const Workspace& workspace = run.localizer.workspace();
-    expectTruth(scene, workspace);
-    EXPECT_EQ(workspace.attempts, 1);
-    EXPECT_TRUE(workspace.candidates.empty());
-  }
-}
-
-TEST(NearSeed, IsRefinedWithoutASearch) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    SCOPED_TRACE(seed);
-    const Case scene = nearCase(seed, 0.005, 1.0);
-    OwnedRun run(scene.problem(), defaultProfile());
-    run.finish();
-    const Workspace& workspace = run.localizer.workspace();
-    expectTruth(scene, workspace);
-    EXPECT_EQ(workspace.attempts, 1);
-    EXPECT_EQ(workspace.candidates.size(), 1u);
-    EXPECT_TRUE(workspace.hypotheses.empty());
+/// 0.6 mm and 0.12 deg move the scene by 2 px of the 3 px that a refinement searches: such a seed
+/// is refined at once.
+TEST(NearSeed, IsRefinedWithoutASearchOfTheWholeObject) {
+  const struct {
+    double size_m, size_deg;
+    std::uint64_t seeds;
+    std::size_t candidates;
+  } boxes[] = {{0.0006, 0.12, 4, 0}, {0.005, 1.0, 6, 1}};
+  for (const auto& box : boxes) {
+    for (std::uint64_t seed = 1; seed <= box.seeds; ++seed) {
+      SCOPED_TRACE(testing::Message() << box.size_m << " m, seed " << seed);
+      const Case scene = nearCase(seed, box.size_m, box.size_deg);
+      const FinishedRun run(scene);
+      expectTruth(scene, run.workspace);
+      EXPECT_EQ(run.workspace.attempts, 1);
+      EXPECT_EQ(run.workspace.candidates.size(), box.candidates);
+      EXPECT_TRUE(run.workspace.hypotheses.empty());
+    }
   }
 }
 
 /// Three times as far: also beyond the box of a wider search.
 TEST(NearSeed, WhoseTruthIsFartherThanStated_IsSearchedFor) {
   const Case scene = nearCase(2, 0.005, 1.0, 3.0);
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  const Workspace& workspace = run.localizer.workspace();
-  EXPECT_GT(workspace.attempts, 1);
-  if (workspace.status == LocalizationStatus::kConverged) expectTruth(scene, workspace);
+  const FinishedRun run(scene);
+  EXPECT_GT(run.workspace.attempts, 1);
+  if (run.workspace.status == LocalizationStatus::kConverged) expectTruth(scene, run.workspace);
 }
 
 TEST(NearSeed, WithoutTheObjectInTheImage_IsRefusedAfterASearch) {
   Case scene = nearCase(1, 0.005, 1.0);
   const Picture flat = flatPicture(512, 512, 90);
   scene.picture = &flat;
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  const Workspace& workspace = run.localizer.workspace();
-  EXPECT_NE(workspace.status, LocalizationStatus::kConverged);
-  EXPECT_EQ(workspace.camera_from_station, scene.seed);
-  EXPECT_GT(workspace.attempts, 1);
+  const FinishedRun run(scene);
+  EXPECT_NE(run.workspace.status, LocalizationStatus::kConverged);
+  EXPECT_GT(run.workspace.attempts, 1);
 }
 
 TEST(NearSeed, ThatIsImprobable_IsSearchedForToo) {
   const Case scene = nearCase(3, 0.005, 1.0);
   LocalizerOptions options = defaultProfile();
   options.support.min_probability = 1.0;
-  OwnedRun run(scene.problem(), options);
-  run.finish();
-  EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kNotSupported);
-  EXPECT_GT(run.localizer.workspace().attempts, 1);
-  EXPECT_FALSE(run.localizer.workspace().hypotheses.empty());
-}
-
-TEST(NearSeed, WideUncertainty_IsSearchedAtOnce) {
-  const Case scene = nearCase(1, 0.02, 4.0, 0.2);
-  OwnedRun run(scene.problem(), defaultProfile());
-  run.finish();
-  expectTruth(scene, run.localizer.workspace());
-  EXPECT_FALSE(run.localizer.workspace().hypotheses.empty());
+  const FinishedRun run(scene, options);
+  EXPECT_EQ(run.workspace.status, LocalizationStatus::kNotSupported);
+  EXPECT_GT(run.workspace.attempts, 1);
+  EXPECT_FALSE(run.workspace.hypotheses.empty());
 }
 
 TEST(NearSeed, OptionsChangedBeforeTheFirstIteration_StartFromTheRefinedSeedAgain) {
@@ -95,15 +74,14 @@ TEST(NearSeed, OptionsChangedBeforeTheFirstIteration_StartFromTheRefinedSeedAgai
   other.loop.match_iterations = 1;
   ASSERT_TRUE(run.localizer.changeOptions(other));
   run.finish();
-  expectTruth(scene, run.localizer.workspace());
-  EXPECT_EQ(run.localizer.workspace().attempts, 1);
+  expectTruth(scene, run.workspace);
+  EXPECT_EQ(run.workspace.attempts, 1);
 }
 
 TEST(NearSeed, AnyKernelsAndWorkers_GiveTheSameBits) {
   const Case scene = nearCase(4, 0.005, 1.0);
-  OwnedRun plain(scene.problem(), defaultProfile());
-  plain.finish();
-  EXPECT_EQ(sharedDigest(scene.problem(), defaultProfile(), 3), plain.localizer.digest());
+  EXPECT_EQ(sharedDigest(scene.problem(), defaultProfile(), 3),
+            digestOf(scene.problem(), defaultProfile()));
 }
 
 }  // namespace

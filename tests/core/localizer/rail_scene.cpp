@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/base/random.h"
 
 namespace boresight::test {
 namespace {
@@ -13,15 +12,7 @@ namespace {
 constexpr int kSleeves = 6;
 constexpr int kEndless = 15;
 
-Pose railPose() {
-  Pose facing;
-  facing.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-  Pose tilt;
-  tilt.rotation = rotationExp({0.38, -0.12, 0.2});
-  Pose pose = tilt * facing;
-  pose.translation_m = {0.002, -0.003, 0.40};
-  return pose;
-}
+Pose railPose() { return tiltedPose({0.38, -0.12, 0.2}, {0.002, -0.003, 0.40}); }
 
 /// Boxes in front of both ends that are missing in the mesh.
 Solid hiddenRail() {
@@ -68,12 +59,7 @@ Case railCase(Ends ends, double off_pitches, double declared_pitches, std::uint6
   box.translation_m.x() = declared_pitches * kPitch_m;
   box.rotation_rad.setConstant(0.05);
   box.pivot_in_camera_m = scene.truth * matchedBounds(scene.solid.view()).centre();
-  Random random(seed);
-  Vector6d offset;
-  for (int i = 0; i < 6; ++i) {
-    const double limit = i < 3 ? box.rotation_rad[i] : box.translation_m[i - 3];
-    offset[i] = random.uniform(-0.6, 0.6) * limit;
-  }
+  Vector6d offset = offsetWithin(box, 0.6, seed);
   const Eigen::Vector3d along = scene.truth.matrix().col(0) * (off_pitches * kPitch_m);
   offset.tail<3>() = along + 0.3 * Eigen::Vector3d(0.0, offset[4], offset[5]);
   scene.seed = displacedAboutPivot(scene.truth, offset, box.pivot_in_camera_m);

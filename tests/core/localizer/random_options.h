@@ -6,31 +6,20 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <gtest/gtest.h>
-
 #include "core/base/random.h"
 #include "core/localizer/localizer.h"
 #include "tests/core/localizer/scene.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight::test {
 
 /// The station before a small camera: a run takes a few milliseconds.
-inline Case smallCase(const Picture& picture, const Camera& camera, std::uint64_t seed) {
-  Case scene = stationCase(seed);
-  scene.camera = camera;
-  scene.picture = &picture;
-  return scene;
-}
-
-inline Camera smallCamera() {
-  Camera camera;
-  camera.width = 131;
-  camera.height = 97;
-  camera.fx = camera.fy = 200.0;
+inline Case smallCase(std::uint64_t seed) {
+  Camera camera = makePinhole(131, 97, 200.0);
   camera.cx = 66.0;
   camera.cy = 47.0;
-  EXPECT_EQ(prepareCamera(camera), Status::kOk);
-  return camera;
+  static const Picture picture = takePicture(stationMesh(), camera, truthPose());
+  return caseOf(stationMesh(), camera, picture, truthPose(), seed);
 }
 
 /// Each option stays as it is, or becomes anything in its range; counts stay small.

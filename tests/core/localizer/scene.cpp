@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <thread>
 
@@ -33,6 +32,7 @@ Camera finerCamera(const Camera& camera) {
 }
 
 struct Surfaces {
+  explicit Surfaces(std::size_t pixels) : face(pixels, -1), intensity(pixels), normal(pixels) {}
   std::vector<std::int32_t> face;
   std::vector<std::uint8_t> intensity;
   std::vector<Eigen::Vector3f> normal;
@@ -219,9 +219,11 @@ Solid occludedStationMesh() {
   return solid;
 }
 
-std::int32_t firstOccluderFace(const Solid& solid) {
-  const auto first = std::find(solid.part_of_face.begin(), solid.part_of_face.end(), 1);
-  return static_cast<std::int32_t>(first - solid.part_of_face.begin());
+Solid mirroredSolid(Solid solid) {
+  const auto twice_middle_m = static_cast<float>(2.0 * matchedBounds(solid.view()).centre().x());
+  for (Eigen::Vector3f& vertex : solid.vertices) vertex.x() = twice_middle_m - vertex.x();
+  for (Face& face : solid.faces) std::swap(face.vertex[1], face.vertex[2]);
+  return solid;
 }
 
 Camera pinholeCamera() {
@@ -243,22 +245,17 @@ Camera brownConradyCamera() {
   return camera;
 }
 
-Pose truthPose() {
-  // The station's z axis towards the camera, tilted so that walls are seen.
-  Pose facing;
-  facing.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-  Pose tilt;
-  tilt.rotation = rotationExp({0.42, -0.28, 0.15});
-  Pose pose = tilt * facing;
-  pose.translation_m = {0.004, -0.003, 0.45};
-  return pose;
+Pose tiltedPose(const Eigen::Vector3d& tilt_rad, const Eigen::Vector3d& translation_m) {
+  const Pose facing{Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), Eigen::Vector3d::Zero()};
+  const Pose tilt{rotationExp(tilt_rad), Eigen::Vector3d::Zero()};
+  return {(tilt * facing).rotation, translation_m};
 }
+
+Pose truthPose() { return tiltedPose({0.42, -0.28, 0.15}, {0.004, -0.003, 0.45}); }
 
 Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station) {
   const Camera finer = finerCamera(camera);
-  const auto rays = static_cast<std::size_t>(finer.width * finer.height);
-  Surfaces surfaces{std::vector<std::int32_t>(rays), std::vector<std::uint8_t>(rays),
-                    std::vector<Eigen::Vector3f>(rays)};
+  Surfaces surfaces(static_cast<std::size_t>(finer.width * finer.height));
   render(solid, finer, camera_from_station, &surfaces);
   return develop(expose(solid, finer, surfaces), camera.width, camera.height);
 }
@@ -271,8 +268,19 @@ struct Hit {
   std::int32_t face = -1;
 };
 
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+Corners cornersInCamera(const Solid& solid, std::size_t face, const Pose& camera_from_station) {
+  Corners corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto vertex = static_cast<std::size_t>(solid.faces[face].vertex[i]);
+    corners[i] = camera_from_station * solid.vertices[vertex].cast<double>();
+  }
+  return corners;
+}
+
 /// Depth at which a ray meets a triangle; negative where it does not (Moeller and Trumbore).
-double meet(const Ray& ray, const Eigen::Vector3d corner[3]) {
+double meet(const Ray& ray, const Corners& corner) {
   const Eigen::Vector3d ab = corner[1] - corner[0];
   const Eigen::Vector3d ac = corner[2] - corner[0];
   const Eigen::Vector3d p = ray.direction.cross(ac);
@@ -297,14 +305,12 @@ Picture takePictureByRays(const Solid& solid, const Camera& camera,
       EXPECT_TRUE(unprojectRay(finer, {x, y}, rays[static_cast<std::size_t>(y * finer.width + x)]));
   std::vector<Hit> hits(count);
   for (std::size_t face = 0; face < solid.faces.size(); ++face) {
-    Eigen::Vector3d corner[3];
+    const Corners corners = cornersInCamera(solid, face, camera_from_station);
     Eigen::Vector2d low(1e9, 1e9);
     Eigen::Vector2d high(-1e9, -1e9);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto vertex = static_cast<std::size_t>(solid.faces[face].vertex[i]);
-      corner[i] = camera_from_station * solid.vertices[vertex].cast<double>();
+    for (const Eigen::Vector3d& corner : corners) {
       Eigen::Vector2d pixel;
-      EXPECT_TRUE(project(finer, corner[i], pixel));
+      EXPECT_TRUE(project(finer, corner, pixel));
       low = low.cwiseMin(pixel);
       high = high.cwiseMax(pixel);
     }
@@ -317,21 +323,17 @@ Picture takePictureByRays(const Solid& solid, const Camera& camera,
       for (int x = limited(low.x() - bend_px, finer.width);
            x < limited(high.x() + bend_px, finer.width); ++x) {
         const auto i = static_cast<std::size_t>(y * finer.width + x);
-        const double depth_m = meet(rays[i], corner);
+        const double depth_m = meet(rays[i], corners);
         if (depth_m > 0.0 && depth_m < hits[i].depth_m)
           hits[i] = {depth_m, static_cast<std::int32_t>(face)};
       }
     }
   }
-  Surfaces surfaces{std::vector<std::int32_t>(count, -1), std::vector<std::uint8_t>(count),
-                    std::vector<Eigen::Vector3f>(count)};
+  Surfaces surfaces(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (hits[i].face < 0) continue;
-    const Face& face = solid.faces[static_cast<std::size_t>(hits[i].face)];
-    Eigen::Vector3d corner[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      corner[k] = camera_from_station *
-                  solid.vertices[static_cast<std::size_t>(face.vertex[k])].cast<double>();
+    const auto face = static_cast<std::size_t>(hits[i].face);
+    const Corners corner = cornersInCamera(solid, face, camera_from_station);
     Eigen::Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
     const double cosine = -normal.dot(rays[i].direction.normalized());
     if (cosine < 0.0) normal = -normal;
@@ -375,12 +377,6 @@ void Mask::fill(int x_begin, int y_begin, int x_end, int y_end) {
   }
 }
 
-double Mask::share() const {
-  int set = 0;
-  for (const std::uint64_t word : bits.words) set += std::popcount(word);
-  return set / static_cast<double>(bits.width * bits.height);
-}
-
 SeedUncertainty uncertaintyAbout(const Solid& solid, const Pose& camera_from_station) {
   SeedUncertainty uncertainty;
   uncertainty.translation_m.setConstant(0.02);
@@ -389,15 +385,20 @@ SeedUncertainty uncertaintyAbout(const Solid& solid, const Pose& camera_from_sta
   return uncertainty;
 }
 
-Pose displacedSeed(const Pose& truth, const SeedUncertainty& uncertainty, double share,
-                   std::uint64_t seed) {
+Vector6d offsetWithin(const SeedUncertainty& uncertainty, double share, std::uint64_t seed) {
   Random random(seed);
   Vector6d offset;
   for (int i = 0; i < 6; ++i) {
     const double limit = i < 3 ? uncertainty.rotation_rad[i] : uncertainty.translation_m[i - 3];
     offset[i] = random.uniform(-share, share) * limit;
   }
-  return displacedAboutPivot(truth, offset, uncertainty.pivot_in_camera_m);
+  return offset;
+}
+
+Pose displacedSeed(const Pose& truth, const SeedUncertainty& uncertainty, double share,
+                   std::uint64_t seed) {
+  return displacedAboutPivot(truth, offsetWithin(uncertainty, share, seed),
+                             uncertainty.pivot_in_camera_m);
 }
 
 LocalizationProblem Case::problem() const {
@@ -412,40 +413,41 @@ LocalizationProblem Case::problem() const {
   return problem;
 }
 
-namespace {
-
-Case caseOf(Solid solid, const Camera& camera, const Picture& picture, std::uint64_t seed) {
+Case caseOf(Solid solid, const Camera& camera, const Picture& picture, const Pose& truth,
+            std::uint64_t seed) {
   Case scene;
   scene.solid = std::move(solid);
   scene.camera = camera;
   scene.picture = &picture;
-  scene.truth = truthPose();
-  scene.seed = displacedSeed(scene.truth, uncertaintyAbout(scene.solid, scene.truth), 0.8, seed);
+  scene.truth = truth;
+  scene.seed = displacedSeed(truth, uncertaintyAbout(scene.solid, truth), 0.8, seed);
   scene.uncertainty = uncertaintyAbout(scene.solid, scene.seed);
   return scene;
 }
 
-}  // namespace
-
 Case stationCase(std::uint64_t seed, bool distorted) {
+  const auto shown = [seed](const Camera& camera, const Picture& picture) {
+    return caseOf(stationMesh(), camera, picture, truthPose(), seed);
+  };
   if (distorted) {
     static const Picture picture = takePicture(stationMesh(), brownConradyCamera(), truthPose());
-    return caseOf(stationMesh(), brownConradyCamera(), picture, seed);
+    return shown(brownConradyCamera(), picture);
   }
   static const Picture picture = takePicture(stationMesh(), pinholeCamera(), truthPose());
-  return caseOf(stationMesh(), pinholeCamera(), picture, seed);
+  return shown(pinholeCamera(), picture);
 }
 
 Case occludedCase(std::uint64_t seed) {
   static const Picture picture = takePicture(occludedStationMesh(), pinholeCamera(), truthPose());
-  return caseOf(occludedStationMesh(), pinholeCamera(), picture, seed);
+  return caseOf(occludedStationMesh(), pinholeCamera(), picture, truthPose(), seed);
 }
 
-std::vector<std::byte> blockFor(const LocalizationProblem& problem,
-                                const LocalizerOptions& options) {
-  std::size_t bytes = 0;
-  EXPECT_EQ(requiredBytes(sizeOf(problem), options, bytes), Status::kOk);
-  return std::vector<std::byte>(bytes);
+void turnAboutTheCamera(Case& scene, double turn_rad) {
+  const Eigen::Quaterniond turn = rotationExp({0.0, 0.0, turn_rad});
+  scene.seed.rotation = (turn * scene.truth.rotation).normalized();
+  scene.seed.translation_m = turn * scene.truth.translation_m;
+  scene.uncertainty.pivot_in_camera_m.setZero();
+  scene.uncertainty.rotation_rad.z() = kPi;
 }
 
 LocalizerOptions withoutSearch() {
@@ -454,35 +456,46 @@ LocalizerOptions withoutSearch() {
   return options;
 }
 
-OwnedRun::OwnedRun(const LocalizationProblem& problem, const LocalizerOptions& options)
-    : memory(blockFor(problem, options)), localizer(problem, options, memory) {}
+std::vector<std::byte> blockFor(const LocalizationProblem& problem, const LocalizerOptions& options,
+                                int workers) {
+  std::size_t bytes = 0;
+  EXPECT_EQ(requiredBytes(sizeOf(problem), options, workers, bytes), Status::kOk);
+  return std::vector<std::byte>(bytes);
+}
 
-int OwnedRun::finish() {
-  for (int steps = 1; steps <= kMaxSteps; ++steps) {
-    if (localizer.step().finished) return steps;
-  }
-  ADD_FAILURE() << "the run does not end";
-  return -1;
+OwnedRun::OwnedRun(const LocalizationProblem& problem, const LocalizerOptions& options, int workers)
+    : memory(blockFor(problem, options, workers)), localizer(problem, options, memory, workers) {}
+
+void OwnedRun::finish() {
+  finish([](const StepReport&) {});
+}
+
+FinishedRun::FinishedRun(const Case& scene, const LocalizerOptions& options)
+    : OwnedRun(scene.problem(), options) {
+  EXPECT_EQ(localizer.status(), Status::kOk);
+  finish();
+  if (workspace.status == LocalizationStatus::kConverged) return;
+  EXPECT_EQ(workspace.camera_from_station, scene.seed);
+  EXPECT_EQ(workspace.covariance, Matrix6d::Zero().eval());
 }
 
 LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
-  OwnedRun run(scene.problem(), options);
-  EXPECT_EQ(run.localizer.status(), Status::kOk);
-  run.finish();
-  const Workspace& workspace = run.localizer.workspace();
-  if (workspace.status != LocalizationStatus::kConverged) {
-    EXPECT_EQ(workspace.camera_from_station, scene.seed);
-    EXPECT_EQ(workspace.covariance, Matrix6d::Zero().eval());
-  }
-  return workspace.status;
+  return FinishedRun(scene, options).workspace.status;
 }
 
-std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
-                                          const LocalizerOptions& options, int workers) {
+Digest digestOf(const LocalizationProblem& problem, const LocalizerOptions& options) {
+  OwnedRun run(problem, options);
+  EXPECT_EQ(run.localizer.status(), Status::kOk);
+  run.finish();
+  return run.localizer.digest();
+}
+
+Digest sharedDigest(const LocalizationProblem& problem, const LocalizerOptions& options,
+                    int workers, Kernels kernels) {
   std::size_t bytes = 0;
-  EXPECT_EQ(requiredBytes(sizeOf(problem), options, workers, bytes, bestKernels()), Status::kOk);
-  std::vector<std::byte> memory(bytes + Arena::kAlignment);
-  Localizer shared(problem, options, memory, workers, bestKernels());
+  EXPECT_EQ(requiredBytes(sizeOf(problem), options, workers, bytes, kernels), Status::kOk);
+  std::vector<std::byte> memory(bytes);
+  Localizer shared(problem, options, memory, workers, kernels);
   do {
     const int tasks = shared.tasks();
     std::vector<std::jthread> threads;

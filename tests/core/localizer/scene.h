@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <Eigen/Core>
 
 #include "core/base/arena.h"
 #include "core/base/image.h"
+#include "core/base/kernels.h"
 #include "core/base/math.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
@@ -44,12 +46,14 @@ struct Solid {
 Solid stationMesh();
 /// The station with a bar floating above it, part 1, which occludes and is not matched.
 Solid occludedStationMesh();
-/// First face of the bar.
-std::int32_t firstOccluderFace(const Solid& solid);
+/// Mirrored across the plane of constant x through its middle.
+Solid mirroredSolid(Solid solid);
 
 Camera pinholeCamera();       ///< 512 x 512
 Camera brownConradyCamera();  ///< 512 x 512
-Pose truthPose();             ///< the station at 0.45 m, tilted
+/// The station's z axis towards the camera, then tilted so that walls are seen.
+Pose tiltedPose(const Eigen::Vector3d& tilt_rad, const Eigen::Vector3d& translation_m);
+Pose truthPose();  ///< the station at 0.45 m, tilted
 
 struct Picture {
   int width = 0;
@@ -84,12 +88,13 @@ struct Mask {
   BitImage bits;
   Mask(int width, int height);
   void fill(int x_begin, int y_begin, int x_end, int y_end);
-  double share() const;
 };
 
 /// +-20 mm and +-4 deg about the station's centre.
 SeedUncertainty uncertaintyAbout(const Solid& solid, const Pose& camera_from_station);
-/// A pose displaced uniformly inside `share` of the uncertainty box.
+/// Uniform inside `share` of the uncertainty box: (rotation rad, translation m).
+Vector6d offsetWithin(const SeedUncertainty& uncertainty, double share, std::uint64_t seed);
+/// A pose displaced by such an offset.
 Pose displacedSeed(const Pose& truth, const SeedUncertainty& uncertainty, double share,
                    std::uint64_t seed);
 
@@ -106,38 +111,57 @@ struct Case {
 
   LocalizationProblem problem() const;
 };
+/// The solid in the picture that a camera took from the truth; the seed is displaced from it.
+Case caseOf(Solid solid, const Camera& camera, const Picture& picture, const Pose& truth,
+            std::uint64_t seed);
 /// The station before the pinhole camera (or another one), seeded by `seed`.
 Case stationCase(std::uint64_t seed, bool distorted = false);
 Case occludedCase(std::uint64_t seed);
+/// The seed becomes the truth turned about the camera's axis; any such turn is stated.
+void turnAboutTheCamera(Case& scene, double turn_rad);
 
 /// The default profile from the seed alone, without a search before.
 LocalizerOptions withoutSearch();
 
-/// The run's own block, sized by requiredBytes.
+using Digest = std::array<std::uint8_t, 32>;
+
+std::vector<std::byte> blockFor(const LocalizationProblem& problem, const LocalizerOptions& options,
+                                int workers = 1);
+
+/// A run in a block of its own, sized by requiredBytes.
 struct OwnedRun {
   std::vector<std::byte> memory;
   Localizer localizer;
-  OwnedRun(const LocalizationProblem& problem, const LocalizerOptions& options);
-  /// Steps to the end; the number of steps, or -1 when there seems to be none.
-  int finish();
+  const Workspace& workspace = localizer.workspace();
+
+  OwnedRun(const LocalizationProblem& problem, const LocalizerOptions& options, int workers = 1);
+  OwnedRun(const OwnedRun&) = delete;
+  /// Steps to the end.
+  void finish();
   /// The same; `each` gets the report of every step.
   template <class Each>
   void finish(const Each& each) {
-    StepReport report;
-    while (!report.finished) {
-      report = localizer.step();
+    constexpr int kMostSteps = 2000000;
+    for (int steps = 0; steps < kMostSteps; ++steps) {
+      const StepReport report = localizer.step();
       each(report);
+      if (report.finished) return;
     }
+    ADD_FAILURE() << "the run does not end";
   }
 };
-/// The status at the end of a run; one that did not converge must have kept the seed.
+/// A run at its end; one that did not converge must have kept the seed.
+struct FinishedRun : OwnedRun {
+  explicit FinishedRun(const Case& scene, const LocalizerOptions& options = defaultProfile());
+};
+/// The status at the end of a run.
 LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options);
-std::vector<std::byte> blockFor(const LocalizationProblem& problem,
-                                const LocalizerOptions& options);
 
-/// The digest of a run with the best kernels, its tasks shared by `workers` threads.
-std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
-                                          const LocalizerOptions& options, int workers);
+/// The digest of a run by one worker with the portable kernels.
+Digest digestOf(const LocalizationProblem& problem, const LocalizerOptions& options);
+/// The digest of a run with these kernels, its tasks shared by `workers` threads.
+Digest sharedDigest(const LocalizationProblem& problem, const LocalizerOptions& options,
+                    int workers, Kernels kernels = bestKernels());
 
 /// Distance between the station's centre under two poses, and the angle between them.
 struct PoseError {

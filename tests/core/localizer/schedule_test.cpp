@@ -12,18 +12,12 @@ TEST(Schedule, FirstLevel_IsTheFinestWithinTheSizeLimit) {
   LocalizerOptions options;
   options.loop.coarse_size_px = 512;
   options.loop.halved_size_px = 400;
-  const auto coarseLevel = [&](int width, int height) {
-    ProblemSize size;
-    size.width = width;
-    size.height = height;
-    return levelsOf(size, options).coarse;
-  };
-  EXPECT_EQ(coarseLevel(2048, 1536), 2);
-  EXPECT_EQ(coarseLevel(1024, 1024), 1);
-  EXPECT_EQ(coarseLevel(1025, 16), 1);  // 1025 >> 1
-  EXPECT_EQ(coarseLevel(401, 401), 1);
-  EXPECT_EQ(coarseLevel(400, 400), 0);
-  EXPECT_EQ(coarseLevel(1 << 14, 1 << 14), kPyramidLevels - 1);
+  const struct {
+    int width, height, coarse;
+  } images[] = {{2048, 1536, 2}, {1024, 1024, 1}, {1025, 16, 1},  // 1025 >> 1
+                {401, 401, 1},   {400, 400, 0},   {1 << 14, 1 << 14, kPyramidLevels - 1}};
+  for (const auto& [width, height, coarse] : images)
+    EXPECT_EQ(levelsOf({width, height, 8, 12, 1}, options).coarse, coarse) << width;
 }
 
 TEST(Schedule, ThresholdsShrinkWhileMatchingAndAreARadiusWhenRefining) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@ namespace {
 class BitCounters : public testing::TestWithParam<Kernels> {
  protected:
   const BitKernels& kernels_ = bitKernels(GetParam());
+  Dice dice;
 };
 INSTANTIATE_TEST_SUITE_P(Sets, BitCounters, testing::ValuesIn(availableKernels()), nameOfKernels);
 
@@ -59,16 +61,12 @@ int bitOf(const std::vector<std::uint8_t>& bytes, int bit) {
 }
 
 TEST(PlanesFor, HoldTheLargestCount) {
-  EXPECT_EQ(planesFor(0), 0);
-  EXPECT_EQ(planesFor(1), 1);
-  EXPECT_EQ(planesFor(2), 2);
-  EXPECT_EQ(planesFor(255), 8);
-  EXPECT_EQ(planesFor(256), 9);
-  EXPECT_EQ(planesFor(512 * 512), kMaxPlanes);
+  for (const auto& [count, planes] :
+       {std::pair{0, 0}, {1, 1}, {2, 2}, {255, 8}, {256, 9}, {512 * 512, kMaxPlanes}})
+    EXPECT_EQ(planesFor(count), planes);
 }
 
 TEST_P(BitCounters, AddPixelsOneByOne) {
-  Dice dice;
   const std::vector<std::uint8_t> bytes = randomBytes(dice);
   for (int count = 1; count <= 300; count += count < 70 ? 1 : 23) {
     std::vector<std::int32_t> offsets;
@@ -99,7 +97,6 @@ TEST_P(BitCounters, AddPixelsOneByOne) {
 }
 
 TEST_P(BitCounters, CountSignedPixelsOneByOne) {
-  Dice dice;
   const std::vector<std::uint8_t> bytes = randomBytes(dice);
   for (int count = 1; count <= 200; count += count < 40 ? 1 : 31) {
     std::vector<int> bits;
@@ -129,17 +126,13 @@ TEST_P(BitCounters, CountSignedPixelsOneByOne) {
 
 TEST(CountOnes, CountsEveryBit) {
   Dice dice;
-  EXPECT_EQ(countOnes(0), 0);
-  EXPECT_EQ(countOnes(~std::uint64_t{0}), 64);
-  for (int k = 0; k < 64; ++k) EXPECT_EQ(countOnes(std::uint64_t{1} << k), 1);
-  for (int trial = 0; trial < 1000; ++trial) {
-    const std::uint64_t word = dice.bits() & dice.bits();
-    EXPECT_EQ(countOnes(word), std::popcount(word));
-  }
+  std::vector<std::uint64_t> words = {0, ~std::uint64_t{0}};
+  for (int k = 0; k < 64; ++k) words.push_back(std::uint64_t{1} << k);
+  for (int trial = 0; trial < 1000; ++trial) words.push_back(dice.bits() & dice.bits());
+  for (const std::uint64_t word : words) EXPECT_EQ(countOnes(word), std::popcount(word));
 }
 
 TEST_P(BitCounters, Lanes_HoldTheCounters) {
-  Dice dice;
   for (int planes = 0; planes <= 16; ++planes) {
     OwnedRow row(planes);
     for (int x = 0; x < 64 * kWords; ++x) row.set(x, dice.below(1 << planes));
@@ -156,7 +149,6 @@ TEST_P(BitCounters, Lanes_HoldTheCounters) {
 }
 
 TEST_P(BitCounters, PrefixSums_AddTheCountersToTheLeft) {
-  Dice dice;
   for (int planes = 0; planes <= 10; ++planes) {
     OwnedRow row(planes);
     const int largest = planes == 10 ? 1020 : (1 << planes) - 1;

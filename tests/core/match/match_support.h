@@ -54,15 +54,21 @@ struct OwnedBits {
   BitImage image;
 };
 
-/// Every pixel set with probability `density`.
-inline OwnedBits noise(int width, int height, double density, Dice& dice) {
+/// The pixels (x, y) that are `in`, asked row by row.
+template <class In>
+OwnedBits drawn(int width, int height, const In& in) {
   OwnedBits bits(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      if (dice.uniform() < density) bits.image.set(x, y);
+      if (in(x, y)) bits.image.set(x, y);
     }
   }
   return bits;
+}
+
+/// Every pixel set with probability `density`.
+inline OwnedBits noise(int width, int height, double density, Dice& dice) {
+  return drawn(width, height, [&](int, int) { return dice.uniform() < density; });
 }
 
 /// A WhsSearch with memory of its own.
@@ -72,11 +78,10 @@ struct OwnedSearch {
     (void)search.create(max_side_px, max_window_px, kernels, count);  // counting cannot fail
     memory.resize(count.highWater());
     Arena arena{memory};
-    status = search.create(max_side_px, max_window_px, kernels, arena);
+    EXPECT_EQ(search.create(max_side_px, max_window_px, kernels, arena), Status::kOk);
   }
   std::vector<std::byte> memory;
   WhsSearch search;
-  Status status = Status::kOk;
 };
 
 /// Every set of kernels that this build has.

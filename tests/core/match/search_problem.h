@@ -14,21 +14,6 @@
 
 namespace boresight::test {
 
-inline std::int64_t squaredDistance(int x, int y, int from_x, int from_y) {
-  const std::int64_t dx = std::int64_t{x} - from_x;
-  const std::int64_t dy = std::int64_t{y} - from_y;
-  return dx * dx + dy * dy;
-}
-
-/// Does the 8x8 block of offsets that holds (x, y) touch the square around the best?
-inline bool blockTouches(const SearchWindow& window, int x, int y, const WhsPeak& best,
-                         int exclusion_px) {
-  const int block_x = window.x_min + (x - window.x_min) / 8 * 8;
-  const int block_y = window.y_min + (y - window.y_min) / 8 * 8;
-  return block_x <= best.x + exclusion_px && block_x + 7 >= best.x - exclusion_px &&
-         block_y <= best.y + exclusion_px && block_y + 7 >= best.y - exclusion_px;
-}
-
 /// The definition, pixel by pixel (Pham 2025, Eqs. 1-3): S+ = sum of M T I, S- = sum of M (1 - T)
 /// (1 - I). Slow on purpose: the oracle that every faster implementation is compared with. The
 /// template must lie inside both images.
@@ -54,54 +39,11 @@ inline WhsNorms whsNormsReference(const TemplateView& view) {
   for (int v = -half; v < half; ++v) {
     for (int u = -half; u < half; ++u) {
       if (!view.mask->get(view.center_x + u, view.center_y + v)) continue;
-      if (view.edges->get(view.center_x + u, view.center_y + v)) {
-        ++norms.edges;
-      } else {
-        ++norms.empties;
-      }
+      const bool edge = view.edges->get(view.center_x + u, view.center_y + v);
+      ++(edge ? norms.edges : norms.empties);
     }
   }
   return norms;
-}
-
-/// Expected result of WhsSearch, by trying every offset twice; `counts_at` gives the counts at (x,
-/// y).
-template <class CountsAt>
-WhsPeak peakByTrying(const CountsAt& counts_at, const WhsNorms& norms, const SearchWindow& window,
-                     int predicted_x, int predicted_y, int exclusion_px) {
-  // False where `skips` leaves no offset.
-  const auto largest = [&](const auto& skips, int& best_x, int& best_y, WhsCounts& best_counts) {
-    std::int64_t best = -1, best_distance = 0;
-    for (int y = window.y_min; y <= window.y_max; ++y) {
-      for (int x = window.x_min; x <= window.x_max; ++x) {
-        if (skips(x, y)) continue;
-        const WhsCounts counts = counts_at(x, y);
-        const std::int64_t value = whsComparable(counts, norms);
-        const std::int64_t distance = squaredDistance(x, y, predicted_x, predicted_y);
-        if (value < best || (value == best && distance >= best_distance)) continue;
-        best = value;
-        best_distance = distance;
-        best_x = x;
-        best_y = y;
-        best_counts = counts;
-      }
-    }
-    return best >= 0;
-  };
-  WhsPeak peak;
-  largest([](int, int) { return false; }, peak.x, peak.y, peak.counts);
-  peak.has_second =
-      largest([&](int x, int y) { return blockTouches(window, x, y, peak, exclusion_px); },
-              peak.second_x, peak.second_y, peak.second_counts);
-  return peak;
-}
-
-/// The same pixel by pixel.
-inline WhsPeak whsPeakReference(const TemplateView& view, const BitImage& test_edges,
-                                const SearchWindow& window, int predicted_x, int predicted_y,
-                                int exclusion_px) {
-  return peakByTrying([&](int x, int y) { return whsCountsReference(view, test_edges, x, y); },
-                      whsNormsReference(view), window, predicted_x, predicted_y, exclusion_px);
 }
 
 enum class MaskKind {
@@ -122,47 +64,37 @@ enum class MaskKind {
 inline OwnedBits makeMask(int width, int height, MaskKind kind, int side, Dice& dice) {
   if (kind == MaskKind::kNoise) return noise(width, height, 0.5, dice);
   if (kind == MaskKind::kSparseNoise) return noise(width, height, 0.03, dice);
-  OwnedBits mask(width, height);
   const int cx = dice.below(width), cy = dice.below(height);
   const int radius = 1 + dice.below(side);
   const int nx = dice.between(-5, 5), ny = dice.between(-5, 5);
   const int line = dice.between(width / 2 - side / 4, width / 2 + side / 4);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const int r2 = (x - cx) * (x - cx) + (y - cy) * (y - cy);
-      bool in = false;
-      switch (kind) {
-        case MaskKind::kFull:
-          in = true;
-          break;
-        case MaskKind::kHalfPlane:
-          in = nx * (x - cx) + ny * (y - cy) >= 0;
-          break;
-        case MaskKind::kCircle:
-          in = r2 <= radius * radius;
-          break;
-        case MaskKind::kRing:
-          in = r2 <= radius * radius && 4 * r2 > radius * radius;
-          break;
-        case MaskKind::kColumn:
-          in = x == line;
-          break;
-        case MaskKind::kRow:
-          in = y == height / 2;
-          break;
-        case MaskKind::kRowStripes:
-          in = y % 2 == 0;
-          break;
-        case MaskKind::kColumnStripes:
-          in = x % 3 != 0;
-          break;
-        default:
-          break;
-      }
-      if (in) mask.image.set(x, y);
+  return drawn(width, height, [&](int x, int y) {
+    const int r2 = (x - cx) * (x - cx) + (y - cy) * (y - cy);
+    switch (kind) {
+      case MaskKind::kFull:
+        return true;
+      case MaskKind::kHalfPlane:
+        return nx * (x - cx) + ny * (y - cy) >= 0;
+      case MaskKind::kCircle:
+        return r2 <= radius * radius;
+      case MaskKind::kRing:
+        return r2 <= radius * radius && 4 * r2 > radius * radius;
+      case MaskKind::kColumn:
+        return x == line;
+      case MaskKind::kRow:
+        return y == height / 2;
+      case MaskKind::kRowStripes:
+        return y % 2 == 0;
+      case MaskKind::kColumnStripes:
+        return x % 3 != 0;
+      default:
+        return false;
     }
-  }
-  return mask;
+  });
+}
+
+inline OwnedBits fullMask(int side) {
+  return drawn(side, side, [](int, int) { return true; });
 }
 
 struct Problem {
@@ -230,9 +162,51 @@ inline WhsPeak run(WhsSearch& search, const Problem& problem) {
   return search.peak();
 }
 
+/// Does the 8x8 block of offsets that holds (x, y) touch the square around the best?
+inline bool blockTouches(const Problem& problem, int x, int y, const WhsPeak& best) {
+  const int block_x = x - (x - problem.window.x_min) % 8;
+  const int block_y = y - (y - problem.window.y_min) % 8;
+  return block_x <= best.x + problem.exclusion_px && block_x + 7 >= best.x - problem.exclusion_px &&
+         block_y <= best.y + problem.exclusion_px && block_y + 7 >= best.y - problem.exclusion_px;
+}
+
+/// Expected result of WhsSearch, by trying every offset twice; `counts_at` gives the counts at (x,
+/// y).
+template <class CountsAt>
+WhsPeak peakByTrying(const CountsAt& counts_at, const WhsNorms& norms, const Problem& problem) {
+  const SearchWindow& window = problem.window;
+  // False where `skips` leaves no offset.
+  const auto largest = [&](const auto& skips, int& best_x, int& best_y, WhsCounts& best_counts) {
+    std::int64_t best = -1, best_distance = 0;
+    for (int y = window.y_min; y <= window.y_max; ++y) {
+      for (int x = window.x_min; x <= window.x_max; ++x) {
+        if (skips(x, y)) continue;
+        const WhsCounts counts = counts_at(x, y);
+        const std::int64_t value = whsComparable(counts, norms);
+        const std::int64_t dx = x - problem.predicted_x, dy = y - problem.predicted_y;
+        const std::int64_t distance = dx * dx + dy * dy;
+        if (value < best || (value == best && distance >= best_distance)) continue;
+        best = value;
+        best_distance = distance;
+        best_x = x;
+        best_y = y;
+        best_counts = counts;
+      }
+    }
+    return best >= 0;
+  };
+  WhsPeak peak;
+  largest([](int, int) { return false; }, peak.x, peak.y, peak.counts);
+  peak.has_second = largest([&](int x, int y) { return blockTouches(problem, x, y, peak); },
+                            peak.second_x, peak.second_y, peak.second_counts);
+  return peak;
+}
+
+/// Expected result of WhsSearch, pixel by pixel.
 inline WhsPeak reference(const Problem& problem) {
-  return whsPeakReference(problem.view, problem.test.image, problem.window, problem.predicted_x,
-                          problem.predicted_y, problem.exclusion_px);
+  return peakByTrying(
+      [&](int x, int y) { return whsCountsReference(problem.view, problem.test.image, x, y); },
+      whsNormsReference(problem.view), problem);
 }
 
 /// The peak of a map of counts, for windows that are too large for the pixel-by-pixel reference.
@@ -245,8 +219,7 @@ inline WhsPeak peakOfMap(const Problem& problem) {
         return map[static_cast<std::size_t>((y - window.y_min) * window.width() + x -
                                             window.x_min)];
       },
-      whsNorms(problem.view), window, problem.predicted_x, problem.predicted_y,
-      problem.exclusion_px);
+      whsNorms(problem.view), problem);
 }
 
 }  // namespace boresight::test

@@ -41,36 +41,23 @@ cv::Mat1d correlation(const cv::Mat1d& region, const cv::Mat1d& pattern) {
   return product(cv::Rect(0, 0, region.cols - pattern.cols + 1, region.rows - pattern.rows + 1));
 }
 
-/// The images of a search as numbers: template edges and empty pixels inside the mask, and the test
-/// edges that the window's templates cover.
-struct FftProblem {
-  cv::Mat1d edges, empties, region;
-
-  FftProblem(const TemplateView& view, const BitImage& test_edges, const SearchWindow& window) {
-    const int side = view.side_px, half = side / 2;
-    const auto square = [&](const BitImage& image) {
-      return pixelsOf(image, view.center_x - half, view.center_y - half, side, side);
-    };
-    const cv::Mat1d mask = square(*view.mask);
-    edges = square(*view.edges).mul(mask);
-    empties = mask - edges;
-    region = pixelsOf(test_edges, window.x_min - half, window.y_min - half,
-                      window.width() + side - 1, window.height() + side - 1);
-  }
-  /// S+ and S- of every offset, before rounding.
-  cv::Mat1d edgeHits() const { return correlation(region, edges); }
-  cv::Mat1d emptyHits() const {
-    cv::Mat1d no_edges;
-    cv::subtract(1.0, region, no_edges);
-    return correlation(no_edges, empties);
-  }
-};
-
-/// The counts of a window row by row, rounded.
+/// The counts of a window row by row, rounded: template edges and empty pixels inside the mask,
+/// over the test edges that the window's templates cover.
 std::vector<WhsCounts> whsMapByFft(const TemplateView& view, const BitImage& test_edges,
                                    const SearchWindow& window) {
-  const FftProblem problem(view, test_edges, window);
-  const cv::Mat1d edge_hits = problem.edgeHits(), empty_hits = problem.emptyHits();
+  const int side = view.side_px, half = side / 2;
+  const auto square = [&](const BitImage& image) {
+    return pixelsOf(image, view.center_x - half, view.center_y - half, side, side);
+  };
+  const cv::Mat1d mask = square(*view.mask);
+  const cv::Mat1d edges(square(*view.edges).mul(mask));
+  const cv::Mat1d empties(mask - edges);
+  const cv::Mat1d region = pixelsOf(test_edges, window.x_min - half, window.y_min - half,
+                                    window.width() + side - 1, window.height() + side - 1);
+  cv::Mat1d no_edges;
+  cv::subtract(1.0, region, no_edges);
+  const cv::Mat1d edge_hits = correlation(region, edges);
+  const cv::Mat1d empty_hits = correlation(no_edges, empties);
   std::vector<WhsCounts> map;
   for (int y = 0; y < window.height(); ++y) {
     for (int x = 0; x < window.width(); ++x) {
@@ -83,40 +70,29 @@ std::vector<WhsCounts> whsMapByFft(const TemplateView& view, const BitImage& tes
 
 constexpr int kMaskKinds = static_cast<int>(MaskKind::kCount);
 
-TEST(WhsByFft, GivesTheSameIntegersAsTheCore) {
-  Dice dice;
-  for (int trial = 0; trial < 48; ++trial) {
-    const int side = 2 * dice.between(4, trial % 8 == 0 ? 100 : 40);
-    const auto problem =
-        randomProblem(side, static_cast<MaskKind>(trial % kMaskKinds), 120, 120, dice);
-    const SearchWindow& window = problem->window;
-    std::vector<WhsCounts> map(static_cast<std::size_t>(window.width() * window.height()));
-    whsScoreMap(problem->view, problem->test.image, window, map);
-    ASSERT_EQ(map, whsMapByFft(problem->view, problem->test.image, window))
-        << "trial " << trial << " side " << side;
-  }
-}
-
-TEST(WhsByFft, Maximum_IsAtTheResultOfEverySearch) {
+TEST(WhsByFft, GivesTheIntegersOfTheCoreAndTheMaximumOfEverySearch) {
   Dice dice;
   std::vector<OwnedSearch> searches;
   searches.reserve(kKernelSets);  // a search points into its own memory
   for (const Kernels kernels : availableKernels()) searches.emplace_back(256, 300, kernels);
-  for (int trial = 0; trial < 24; ++trial) {
-    const int side = 2 * dice.between(4, 80);
+  for (int trial = 0; trial < 60; ++trial) {
+    const int side = 2 * dice.between(4, trial % 8 == 0 ? 100 : 60);
     const auto problem =
         randomProblem(side, static_cast<MaskKind>(trial % kMaskKinds), 200, 150, dice);
+    SCOPED_TRACE(testing::Message() << "trial " << trial << " side " << side);
     const SearchWindow& window = problem->window;
     const std::vector<WhsCounts> map = whsMapByFft(problem->view, problem->test.image, window);
+    std::vector<WhsCounts> map_of_core(map.size());
+    whsScoreMap(problem->view, problem->test.image, window, map_of_core);
+    ASSERT_EQ(map_of_core, map);
     const WhsNorms norms = whsNormsReference(problem->view);
     std::int64_t largest = 0;
     for (const WhsCounts& counts : map) largest = std::max(largest, whsComparable(counts, norms));
     for (OwnedSearch& owned : searches) {
       const WhsPeak peak = run(owned.search, *problem);
       const int x = peak.x - window.x_min, y = peak.y - window.y_min;
-      const WhsCounts& counts_at_peak = map[static_cast<std::size_t>(y * window.width() + x)];
-      ASSERT_EQ(peak.counts, counts_at_peak) << "trial " << trial;
-      ASSERT_EQ(whsComparable(peak.counts, norms), largest) << "trial " << trial;
+      ASSERT_EQ(peak.counts, map[static_cast<std::size_t>(y * window.width() + x)]);
+      ASSERT_EQ(whsComparable(peak.counts, norms), largest);
     }
   }
 }

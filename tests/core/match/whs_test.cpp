@@ -62,7 +62,7 @@ TEST(WhsComparable, OrdersAsTheScore) {
   }
 }
 
-TEST(WhsScoreMap, EqualsTheCountsAtEveryOffset) {
+TEST(WhsScoreMap, EqualsTheCountsAtEveryOffsetAndStopsWhereTheMapEnds) {
   Dice dice;
   const OwnedBits edges = noise(100, 90, 0.1, dice);
   const OwnedBits mask = noise(100, 90, 0.7, dice);
@@ -77,46 +77,30 @@ TEST(WhsScoreMap, EqualsTheCountsAtEveryOffset) {
       ASSERT_EQ(map[next++], whsCountsAt(view, test.image, x, y));
     }
   }
-}
-
-TEST(WhsScoreMap, StopsWhereTheMapEnds) {
-  Dice dice;
-  const OwnedBits bits = noise(64, 64, 0.3, dice);
-  const TemplateView view{&bits.image, &bits.image, 32, 32, 16};
-  std::vector<WhsCounts> map(5);
-  whsScoreMap(view, bits.image, {8, 8, 56, 56}, map);
-  EXPECT_EQ(map[4], whsCountsAt(view, bits.image, 12, 8));
-  whsScoreMap(view, bits.image, SearchWindow{}, map);
-  EXPECT_EQ(map[4], whsCountsAt(view, bits.image, 12, 8));
+  std::vector<WhsCounts> beginning(5);
+  whsScoreMap(view, test.image, window, beginning);
+  whsScoreMap(view, test.image, SearchWindow{}, beginning);
+  EXPECT_TRUE(std::equal(beginning.begin(), beginning.end(), map.begin()));
 }
 
 /// Edge pixels within half a pixel of a circle whose centre is displaced by (dx, dy).
 OwnedBits circle(double dx, double dy, double half_width) {
-  OwnedBits bits(128, 128);
-  for (int y = 0; y < 128; ++y) {
-    for (int x = 0; x < 128; ++x) {
-      const double distance = std::hypot(x - 64.0 - dx, y - 64.0 - dy) - 30.0;
-      if (std::abs(distance) <= half_width) bits.image.set(x, y);
-    }
-  }
-  return bits;
+  return drawn(128, 128, [=](int x, int y) {
+    return std::abs(std::hypot(x - 64.0 - dx, y - 64.0 - dy) - 30.0) <= half_width;
+  });
 }
 
 TEST(SubpixelPeak, FollowsDisplacedEdges) {
-  const OwnedBits edges = circle(0.0, 0.0, 1.0);
-  OwnedBits mask(128, 128);
-  for (int y = 0; y < 128; ++y) {
-    for (int x = 0; x < 128; ++x) mask.image.set(x, y);
-  }
-  const TemplateView view{&edges.image, &mask.image, 64, 64, 80};
   for (const double dx : {-0.4, -0.25, 0.0, 0.25, 0.4}) {
     for (const double dy : {-0.3, 0.0, 0.45}) {
-      const OwnedBits test = circle(3.0 + dx, -2.0 + dy, 1.0);
-      const WhsPeak peak = whsPeakReference(view, test.image, {60, 60, 70, 66}, 64, 64, 2);
+      Problem problem(circle(0.0, 0.0, 1.0), fullMask(128), circle(3.0 + dx, -2.0 + dy, 1.0), 80);
+      problem.moveTemplate(64, 64);
+      problem.window = {60, 60, 70, 66};
+      const WhsPeak peak = reference(problem);
       EXPECT_EQ(peak.x, 67);
       EXPECT_EQ(peak.y, 62);
       double x = 0.0, y = 0.0;
-      subpixelPeak(view, test.image, peak, x, y);
+      subpixelPeak(problem.view, problem.test.image, peak, x, y);
       EXPECT_NEAR(x, 67.0 + dx, 0.15);
       EXPECT_NEAR(y, 62.0 + dy, 0.15);
     }
@@ -151,15 +135,16 @@ TEST(SubpixelPeak, EqualsTheDefinitionForRandomInput) {
       return x >= half && y >= half && x <= test.image.width - half &&
              y <= test.image.height - half;
     };
-    const int px = peak.x, py = peak.y;
-    double expected_x = px, expected_y = py, x = 0.0, y = 0.0;
-    if (inside(px - 1, py) && inside(px + 1, py))
-      expected_x += topThrough(value(px - 1, py), value(px, py), value(px + 1, py));
-    if (inside(px, py - 1) && inside(px, py + 1))
-      expected_y += topThrough(value(px, py - 1), value(px, py), value(px, py + 1));
+    const auto refined = [&](int dx, int dy) {
+      const int before_x = peak.x - dx, before_y = peak.y - dy;
+      const int after_x = peak.x + dx, after_y = peak.y + dy;
+      if (!inside(before_x, before_y) || !inside(after_x, after_y)) return 0.0;
+      return topThrough(value(before_x, before_y), value(peak.x, peak.y), value(after_x, after_y));
+    };
+    double x = 0.0, y = 0.0;
     subpixelPeak(view, test.image, peak, x, y);
-    ASSERT_EQ(x, expected_x) << "trial " << trial << " side " << side;
-    ASSERT_EQ(y, expected_y) << "trial " << trial << " side " << side;
+    ASSERT_EQ(x, peak.x + refined(1, 0)) << "trial " << trial << " side " << side;
+    ASSERT_EQ(y, peak.y + refined(0, 1)) << "trial " << trial << " side " << side;
   }
 }
 

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "core/pnp/correspondence.h"
 #include "core/pnp/pnp_options.h"
 #include "core/pnp/pnp_ransac.h"
@@ -39,7 +41,10 @@ struct PnpScene {
   std::vector<bool> is_outlier;
 };
 
-inline PnpScene makeScene(Random& random, const PnpSceneOptions& options, const Camera& camera) {
+inline Camera armCamera() { return makePinhole(2048, 2048, 3100.0); }
+
+inline PnpScene makeScene(Random& random, const PnpSceneOptions& options,
+                          const Camera& camera = armCamera()) {
   PnpScene scene;
   scene.camera = camera;
   scene.camera_from_station.rotation =
@@ -72,17 +77,18 @@ inline PnpScene makeScene(Random& random, const PnpSceneOptions& options, const 
   for (std::size_t i = scene.correspondences.size(); i > 1; --i) {
     const std::size_t j = random.below(static_cast<std::uint32_t>(i));
     std::swap(scene.correspondences[i - 1], scene.correspondences[j]);
-    const bool moved = scene.is_outlier[i - 1];
-    scene.is_outlier[i - 1] = scene.is_outlier[j];
-    scene.is_outlier[j] = moved;
+    std::vector<bool>::swap(scene.is_outlier[i - 1], scene.is_outlier[j]);
   }
   return scene;
 }
 
-inline Camera armCamera() { return makePinhole(2048, 2048, 3100.0); }
-
-inline PnpScene makeScene(Random& random, const PnpSceneOptions& options) {
-  return makeScene(random, options, armCamera());
+/// Moves all points to a line through the station's origin, and their pixels with them.
+inline void makeCollinear(Random& random, const Eigen::Vector3d& direction, PnpScene& scene) {
+  for (Correspondence& item : scene.correspondences) {
+    item.point_in_station_m = random.uniform(-0.1, 0.1) * direction;
+    EXPECT_TRUE(
+        project(scene.camera, scene.camera_from_station * item.point_in_station_m, item.pixel));
+  }
 }
 
 /// A PnpRansac, its arena, and a solution with room for `capacity` correspondences. The solution
@@ -91,7 +97,7 @@ struct Solver {
   explicit Solver(std::size_t capacity)
       : memory(capacity * 64 + 1024), inlier(capacity, 7), residual_px(capacity, -1.0) {
     Arena arena(memory);
-    created = ransac.create(static_cast<int>(capacity), arena);
+    EXPECT_EQ(ransac.create(static_cast<int>(capacity), arena), Status::kOk);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     solution.camera_from_station.translation_m.setConstant(nan);
     solution.covariance.setConstant(nan);
@@ -116,10 +122,17 @@ struct Solver {
 
   PnpRansac ransac;
   PnpSolution solution;
-  Status created = Status::kOk;
   std::vector<std::byte> memory;
   std::vector<std::uint8_t> inlier;
   std::vector<double> residual_px;
+};
+
+/// A solver that has solved a scene.
+struct Solved : Solver {
+  Solved(const PnpScene& scene, double threshold_px, const PnpOptions& options = {})
+      : Solver(scene.correspondences.size()) {
+    EXPECT_EQ(solve(scene, threshold_px, options), Status::kOk);
+  }
 };
 
 inline PnpView onlyView(const Camera& camera, std::span<const Correspondence> correspondences) {
@@ -142,6 +155,21 @@ inline Status poseCovariance(std::span<const Correspondence> correspondences,
                                    covariance);
 }
 
+/// The same of all correspondences of a scene, which must succeed.
+inline Pose refinedPose(const PnpScene& scene, Pose start, int max_iterations = 20,
+                        const PosePrior* prior = nullptr) {
+  EXPECT_EQ(refinePose(scene.correspondences, {}, scene.camera, prior, max_iterations, start),
+            Status::kOk);
+  return start;
+}
+inline Matrix6d covarianceAt(const PnpScene& scene, const Pose& camera_from_station) {
+  Matrix6d covariance;
+  EXPECT_EQ(
+      poseCovariance(scene.correspondences, {}, scene.camera, camera_from_station, covariance),
+      Status::kOk);
+  return covariance;
+}
+
 /// One sum of the least squares of a pose, written straight from its definition.
 inline double reprojectionCost(const std::vector<Correspondence>& correspondences,
                                const std::vector<std::uint8_t>& use, const Camera& camera,
@@ -158,6 +186,17 @@ inline double reprojectionCost(const std::vector<Correspondence>& correspondence
   return cost;
 }
 
+inline double reprojectionCost(const PnpScene& scene, const Pose& camera_from_station) {
+  return reprojectionCost(scene.correspondences, {}, scene.camera, camera_from_station);
+}
+/// The other sum, likewise: squared offsets from the prior in units of its sigmas.
+inline double priorCost(const PosePrior& prior, const Pose& camera_from_station) {
+  const Vector6d offset = offsetAboutPivot(prior.camera_from_station, camera_from_station,
+                                           prior.sigma.pivot_in_camera_m);
+  return offset.head<3>().cwiseQuotient(prior.sigma.rotation_rad).squaredNorm() +
+         offset.tail<3>().cwiseQuotient(prior.sigma.translation_m).squaredNorm();
+}
+
 /// Distance of the least squares from a minimum: the largest component of gradient / curvature by
 /// central differences, in the left perturbation (rad, m).
 template <class Cost>
@@ -166,8 +205,7 @@ double newtonStepLeft(const Cost& cost, const Pose& camera_from_station) {
   double largest = 0.0;
   const double cost_at_pose = cost(camera_from_station);
   for (int k = 0; k < 6; ++k) {
-    Vector6d xi = Vector6d::Zero();
-    xi[k] = h;
+    const Vector6d xi = h * Vector6d::Unit(k);
     const double above = cost(perturbed(xi, camera_from_station));
     const double below = cost(perturbed(-xi, camera_from_station));
     const double gradient = (above - below) / (2.0 * h);
@@ -175,13 +213,6 @@ double newtonStepLeft(const Cost& cost, const Pose& camera_from_station) {
     largest = std::max(largest, std::abs(gradient / curvature));
   }
   return largest;
-}
-
-inline bool isFiniteMatrix(const Matrix6d& matrix) {
-  for (int i = 0; i < 36; ++i) {
-    if (!isFinite(matrix(i / 6, i % 6))) return false;
-  }
-  return true;
 }
 
 }  // namespace boresight::test

@@ -99,29 +99,24 @@ TEST(ProblemBytes, Problem_RoundTrips) {
 }
 
 TEST(ProblemBytes, MaskPartsAndEveryOption_RoundTrip) {
-  const Problem unusual;
-  Decoded decoded(unusual.bytes());
-  ASSERT_EQ(decoded.fault(), ProblemFault::kNone);
-  ASSERT_EQ(decoded.problem.mesh.parts.size(), 2u);
+  Problem unusual;
+  ScenePart& part = unusual.scene.solid.parts[1];
+  EXPECT_FALSE(part.match);
+  for (const bool fixed : {false, true}) {
+    part.fixed_to_camera = fixed;
+    Decoded decoded(unusual.bytes());
+    ASSERT_EQ(decoded.fault(), ProblemFault::kNone);
+    EXPECT_TRUE(std::ranges::equal(decoded.problem.mesh.parts, unusual.problem.mesh.parts));
+    ASSERT_NE(decoded.problem.ignore, nullptr);
+    decoded.problem.image = unusual.problem.image;
+    EXPECT_EQ(inputDigest(decoded.problem, decoded.options),
+              inputDigest(unusual.problem, unusual.options));
+    EXPECT_EQ(encoded(decoded.problem, decoded.options), unusual.bytes());
+  }
+  part.match = true;  // which a part that is fixed to the camera cannot be
+  const Decoded decoded(unusual.bytes());
+  EXPECT_TRUE(decoded.problem.mesh.parts[1].fixed_to_camera);
   EXPECT_FALSE(decoded.problem.mesh.parts[1].match);
-  ASSERT_NE(decoded.problem.ignore, nullptr);
-  decoded.problem.image = unusual.problem.image;
-  EXPECT_EQ(inputDigest(decoded.problem, decoded.options),
-            inputDigest(unusual.problem, unusual.options));
-  EXPECT_EQ(encoded(decoded.problem, decoded.options), unusual.bytes());
-}
-
-TEST(ProblemBytes, PartFixedToTheCamera_RoundTrips) {
-  Problem fixed;
-  fixed.scene.solid.parts[1].fixed_to_camera = true;
-  fixed.problem = fixed.scene.problem();
-  Decoded decoded(fixed.bytes());
-  ASSERT_EQ(decoded.fault(), ProblemFault::kNone);
-  EXPECT_TRUE(std::ranges::equal(decoded.problem.mesh.parts, fixed.problem.mesh.parts));
-  fixed.scene.solid.parts[1].match = true;
-  fixed.problem = fixed.scene.problem();
-  EXPECT_TRUE(Decoded(fixed.bytes()).problem.mesh.parts[1].fixed_to_camera);
-  EXPECT_FALSE(Decoded(fixed.bytes()).problem.mesh.parts[1].match);
 }
 
 TEST(ProblemBytes, Header_FollowsTheFormat) {
@@ -232,7 +227,6 @@ TEST(ProblemBytes, DamageWithAValidChecksum_IsRefusedOrRuns) {
   const Problem unusual;
   const Bytes bytes = unusual.bytes();
   Random random(11);
-  int refused = 0;
   int accepted = 0;
   for (int round = 0; round < 1500; ++round) {
     Bytes damaged = bytes;
@@ -242,18 +236,15 @@ TEST(ProblemBytes, DamageWithAValidChecksum_IsRefusedOrRuns) {
     for (std::uint32_t k = 0; k <= random.below(3); ++k)
       damaged[16 + random.below(reach - 16)] = static_cast<std::uint8_t>(random.next() >> 24);
     Decoded decoded(resealed(damaged));
-    if (decoded.fault() != ProblemFault::kNone) {
-      ++refused;
-      continue;
-    }
+    if (decoded.fault() != ProblemFault::kNone) continue;
     ++accepted;
     EXPECT_EQ(validateMesh(decoded.problem.mesh), Status::kOk);
     EXPECT_EQ(firstInvalidOption(decoded.options), nullptr);
     EXPECT_GT(decoded.problem.camera.valid_radius, 0.0);
     EXPECT_EQ(encoded(decoded.problem, decoded.options), resealed(damaged));
   }
-  EXPECT_GT(refused, 200);
   EXPECT_GT(accepted, 50);
+  EXPECT_LT(accepted, 1500 - 200);
 }
 
 TEST(ProblemBytes, EveryFaultHasAText) {

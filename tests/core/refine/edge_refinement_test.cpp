@@ -6,46 +6,17 @@
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
 
-#include "core/base/random.h"
+#include "tests/core/geometry/example_cameras.h"
 #include "tests/core/localizer/scene.h"
+#include "tests/core/refine/refined.h"
 #include "tests/core/refine/step_edge.h"
 
 namespace boresight::test {
 namespace {
 
-/// A refinement with all its memory.
-struct Refined {
-  std::vector<std::byte> memory;
-  EdgeRefinement refinement;
-  RefinementResult result;
-  Status status = Status::kOk;
-  int rounds = 0;
-  int searches = 0;  ///< rounds that searched the image
-
-  explicit Refined(const RefinementOptions& options = {}) : memory(std::size_t{4} << 20) {
-    Arena arena(memory);
-    EXPECT_EQ(refinement.create(options, arena), Status::kOk);
-    result.samples = arena.allocate<EdgeSample>(static_cast<std::size_t>(options.max_samples));
-    EXPECT_FALSE(arena.exhausted());
-  }
-
-  /// One pass from a pose.
-  void pass(const Case& scene, const Pose& from, double radius_px,
-            const PosePrior* anchor = nullptr, const PoseEstimate* matched = nullptr) {
-    const Rendering rendering = renderEdges(scene.solid, scene.camera, from);
-    status = refinement.begin(scene.picture->view(), scene.ignore, scene.camera, scene.solid.view(),
-                              rendering.edges, radius_px, anchor, matched, result);
-    rounds = 0;
-    searches = 0;
-    bool done = false;
-    while (status == Status::kOk && !done && rounds < 1000) {
-      searches += refinement.chunks() > 0 ? 1 : 0;
-      status = refinement.step(done);
-      ++rounds;
-    }
-    EXPECT_TRUE(done || rounds == 0);
-  }
-};
+double error_px(const Case& scene, const Pose& pose) {
+  return meanDisplacement_px(scene.solid, scene.camera, scene.truth, pose);
+}
 
 /// A pose whose image is `displacement_px` off on average.
 Pose poseOff(const Case& scene, double displacement_px, std::uint64_t seed) {
@@ -54,9 +25,7 @@ Pose poseOff(const Case& scene, double displacement_px, std::uint64_t seed) {
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
     const Pose pose = displacedSeed(scene.truth, scene.uncertainty, middle, seed);
-    const bool beyond =
-        meanDisplacement_px(scene.solid, scene.camera, scene.truth, pose) > displacement_px;
-    (beyond ? high : low) = middle;
+    (error_px(scene, pose) > displacement_px ? high : low) = middle;
   }
   return displacedSeed(scene.truth, scene.uncertainty, low, seed);
 }
@@ -67,51 +36,29 @@ TEST(EdgeRefinement, ConvergesFromPixelsAway) {
     std::uint64_t seed = 0;
     for (const double displacement_px : {0.5, 1.0, 1.5, 2.0}) {
       SCOPED_TRACE(displacement_px);
-      const Pose start = poseOff(scene, displacement_px, ++seed);
-      Refined refined;
-      refined.pass(scene, start, 3.0);
+      Refined refined(scene, poseOff(scene, displacement_px, ++seed), 3.0);
+      EXPECT_LT(error_px(scene, refined.pose()), 0.05);
+      refined.pass(scene, refined.pose(), 0.7);
       ASSERT_EQ(refined.status, Status::kOk);
-      EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, scene.truth,
-                                    refined.result.camera_from_station),
-                0.05);
-      refined.pass(scene, refined.result.camera_from_station, 0.7);
-      ASSERT_EQ(refined.status, Status::kOk);
-      EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, scene.truth,
-                                    refined.result.camera_from_station),
-                0.03);
+      EXPECT_LT(error_px(scene, refined.pose()), 0.03);
     }
   }
 }
 
-TEST(EdgeRefinement, SmallMotion_ReusesTheEdges) {
+TEST(EdgeRefinement, Result_FitsItsSamplesAndReusesTheirEdges) {
   const Case scene = stationCase(1);
-  const Pose start = poseOff(scene, 1.0, 5);
-  Refined refined;
-  refined.pass(scene, start, 3.0);
-  ASSERT_EQ(refined.status, Status::kOk);
+  const Refined refined(scene, poseOff(scene, 1.0, 9), 3.0);
   EXPECT_GE(refined.searches, 2);
   EXPECT_LT(refined.searches, refined.rounds);
   // The edges at the returned pose give the same pose.
-  Refined again;
-  again.pass(scene, refined.result.camera_from_station, 3.0);
-  ASSERT_EQ(again.status, Status::kOk);
-  EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, refined.result.camera_from_station,
-                                again.result.camera_from_station),
-            0.02);
-}
-
-TEST(EdgeRefinement, CountsAndRms_FollowFromTheSamples) {
-  const Case scene = stationCase(1);
-  Refined refined;
-  refined.pass(scene, poseOff(scene, 1.0, 9), 3.0);
-  ASSERT_EQ(refined.status, Status::kOk);
+  const Refined again(scene, refined.pose(), 3.0);
+  EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, refined.pose(), again.pose()), 0.02);
   const RefinementResult& result = refined.result;
   int found = 0;
   int used = 0;
   double squares = 0.0;
   double weights = 0.0;
-  for (int i = 0; i < result.sample_count; ++i) {
-    const EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+  for (const EdgeSample& sample : refined.samples()) {
     EXPECT_NEAR(sample.normal().norm(), 1.0, 0.02);
     EXPECT_NE(sample.kind, 0);
     EXPECT_GE(sample.weight, 0.0);
@@ -130,14 +77,7 @@ TEST(EdgeRefinement, CountsAndRms_FollowFromTheSamples) {
   EXPECT_NEAR(result.rms_px, std::sqrt(squares / weights), 1e-9);
   EXPECT_LT(result.rms_px, 0.3);
   EXPECT_GT(used, 500);
-}
-
-TEST(EdgeRefinement, CovarianceIsSymmetricAndPositive) {
-  const Case scene = stationCase(1);
-  Refined refined;
-  refined.pass(scene, poseOff(scene, 1.0, 4), 3.0);
-  ASSERT_EQ(refined.status, Status::kOk);
-  const Matrix6d covariance = refined.result.covariance;
+  const Matrix6d& covariance = result.covariance;
   EXPECT_EQ(covariance, covariance.transpose().eval());
   EXPECT_EQ(covariance.llt().info(), Eigen::Success);
   // Of the size of the errors: within a tenth of a millimetre and of a degree.
@@ -147,28 +87,24 @@ TEST(EdgeRefinement, CovarianceIsSymmetricAndPositive) {
   }
 }
 
-TEST(EdgeRefinement, FindsTooFewEdgesInAFlatImage) {
+TEST(EdgeRefinement, TooFewEdgesInRenderOrImage_AreReported) {
   Case scene = stationCase(1);
-  const Picture flat = flatPicture(512, 512, 100);
-  scene.picture = &flat;
-  Refined refined;
-  refined.pass(scene, scene.truth, 3.0);
-  EXPECT_EQ(refined.status, Status::kTooFewEdges);
-  EXPECT_EQ(refined.rounds, 1);
-  EXPECT_EQ(refined.result.found_count, 0);
-  EXPECT_EQ(refined.result.used_count, 0);
-  EXPECT_EQ(refined.result.camera_from_station.translation_m, scene.truth.translation_m);
-}
-
-TEST(EdgeRefinement, RenderWithTooFewEdges_IsReported) {
-  const Case scene = stationCase(1);
   Pose far_away = scene.truth;
   far_away.translation_m *= 40.0;
-  Refined refined;
-  refined.pass(scene, far_away, 3.0);
-  EXPECT_EQ(refined.status, Status::kTooFewEdges);
-  EXPECT_GT(refined.result.sample_count, 0);
-  EXPECT_EQ(refined.rounds, 0);  // at once
+  Refined small;
+  small.pass(scene, far_away, 3.0);
+  EXPECT_EQ(small.status, Status::kTooFewEdges);
+  EXPECT_GT(small.result.sample_count, 0);
+  EXPECT_EQ(small.rounds, 0);  // at once
+  const Picture flat = flatPicture(512, 512, 100);
+  scene.picture = &flat;
+  Refined unseen;
+  unseen.pass(scene, scene.truth, 3.0);
+  EXPECT_EQ(unseen.status, Status::kTooFewEdges);
+  EXPECT_EQ(unseen.rounds, 1);
+  EXPECT_EQ(unseen.result.found_count, 0);
+  EXPECT_EQ(unseen.result.used_count, 0);
+  EXPECT_EQ(unseen.pose().translation_m, scene.truth.translation_m);
 }
 
 TEST(EdgeRefinement, SamplesAndRounds_StayWithinTheirLimits) {
@@ -188,110 +124,80 @@ TEST(EdgeRefinement, IgnoredEdgesAreNotUsed) {
   Mask mask(512, 512);
   mask.fill(100, 100, 300, 260);
   scene.ignore = &mask.bits;
-  Refined refined;
-  const Pose start = poseOff(scene, 1.0, 5);
-  refined.pass(scene, start, 3.0);
-  ASSERT_EQ(refined.status, Status::kOk);
+  const Refined refined(scene, poseOff(scene, 1.0, 5), 3.0);
   int inside = 0;
-  for (int i = 0; i < refined.result.sample_count; ++i) {
-    const EdgeSample& sample = refined.result.samples[static_cast<std::size_t>(i)];
-    Eigen::Vector2d pixel;
-    ASSERT_TRUE(project(scene.camera, scene.truth * sample.point_in_station_m, pixel));
+  for (const EdgeSample& sample : refined.samples()) {
+    const Eigen::Vector2d pixel = pixelOf(scene.camera, scene.truth * sample.point_in_station_m);
     // Some way inside, so that the edge that was found was, too.
     if (pixel.x() < 105 || pixel.x() > 294 || pixel.y() < 105 || pixel.y() > 254) continue;
     EXPECT_EQ(sample.gradient, 0.0);
     ++inside;
   }
   EXPECT_GT(inside, 100);
-  EXPECT_LT(meanDisplacement_px(scene.solid, scene.camera, scene.truth,
-                                refined.result.camera_from_station),
-            0.08);
+  EXPECT_LT(error_px(scene, refined.pose()), 0.08);
 }
 
-/// As `picture`, white on black.
-Picture negativeOf(Picture picture) {
-  for (std::uint8_t& gray : picture.gray) gray = static_cast<std::uint8_t>(255 - gray);
-  return picture;
+/// A sheet across the image, without its picture.
+Case sheetCase(double left_m, double right_m) {
+  Case scene;
+  scene.solid.addPrism({{left_m, -1.0}, {right_m, -1.0}, {right_m, 1.0}, {left_m, 1.0}}, -0.001,
+                       0.0, 0.9);
+  scene.camera = pinholeCamera();
+  // Not along the columns: there all rays of the picture's edge pixels would share one error.
+  scene.truth.rotation = rotationExp({0.0, 0.0, 0.11}) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  scene.truth.translation_m = {0.0, 0.0, 0.45};
+  return scene;
 }
 
 /// A sheet that covers the left of the image: one straight edge, all other edges hidden.
 struct OneEdge {
-  Picture picture;
-  Case scene;
+  Case scene = sheetCase(-1.0, 0.01);
+  Picture picture = takePicture(scene.solid, scene.camera, scene.truth);
+  Pose start = scene.truth;
 
   OneEdge() {
-    scene.solid.addPrism({{-1.0, -1.0}, {0.01, -1.0}, {0.01, 1.0}, {-1.0, 1.0}}, -0.001, 0.0, 0.9);
-    scene.camera = pinholeCamera();
-    // Not along the columns: there all rays of the picture's edge pixels would share one error.
-    scene.truth.rotation = rotationExp({0.0, 0.0, 0.11}) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-    scene.truth.translation_m = {0.0, 0.0, 0.45};
-    picture = takePicture(scene.solid, scene.camera, scene.truth);
     scene.picture = &picture;
+    start.translation_m += Eigen::Vector3d(0.0006, 0.001, 0.002);
+    start.rotation = (rotationExp({0.0, 0.0, 0.004}) * start.rotation).normalized();
   }
   Eigen::Vector2d placeOf(const Pose& camera_from_station, double y_m) const {
-    Eigen::Vector2d pixel;
-    EXPECT_TRUE(
-        project(scene.camera, camera_from_station * Eigen::Vector3d(0.01, y_m, 0.0), pixel));
-    return pixel;
+    return pixelOf(scene.camera, camera_from_station * Eigen::Vector3d(0.01, y_m, 0.0));
+  }
+  /// The edge is matched, and the undetermined direction keeps its value.
+  void expectHeld(const Pose& end) const {
+    const Eigen::Vector2d along =
+        (placeOf(scene.truth, 0.05) - placeOf(scene.truth, -0.05)).normalized();
+    const Eigen::Vector2d across(-along.y(), along.x());
+    for (const double y_m : {-0.05, 0.0, 0.06}) {
+      const Eigen::Vector2d end_px = placeOf(end, y_m);
+      EXPECT_NEAR(across.dot(end_px - placeOf(scene.truth, y_m)), 0.0, 0.05);
+      EXPECT_NEAR(along.dot(end_px - placeOf(start, y_m)), 0.0, 0.5);  // 2 px from the truth
+      EXPECT_GT(std::abs(along.dot(end_px - placeOf(scene.truth, y_m))), 1.0);
+    }
+    EXPECT_NEAR(end.translation_m.z(), start.translation_m.z(), 1e-4);
   }
 };
 
-TEST(EdgeRefinement, SingleEdge_IsDegenerate) {
+TEST(EdgeRefinement, AnchorOrMatchedPose_HoldsDirectionsThatOneEdgeDoesNotDetermine) {
   const OneEdge edge;
-  Refined refined;
-  refined.pass(edge.scene, edge.scene.truth, 3.0);
-  EXPECT_EQ(refined.status, Status::kDegenerate);
-}
-
-/// The edge is matched, and the undetermined direction keeps its value.
-void expectHeld(const OneEdge& edge, const Pose& start, const Pose& end) {
-  const Eigen::Vector2d along =
-      (edge.placeOf(edge.scene.truth, 0.05) - edge.placeOf(edge.scene.truth, -0.05)).normalized();
-  const Eigen::Vector2d across(-along.y(), along.x());
-  for (const double y_m : {-0.05, 0.0, 0.06}) {
-    const Eigen::Vector2d end_px = edge.placeOf(end, y_m);
-    EXPECT_NEAR(across.dot(end_px - edge.placeOf(edge.scene.truth, y_m)), 0.0, 0.05);
-    EXPECT_NEAR(along.dot(end_px - edge.placeOf(start, y_m)), 0.0, 0.5);  // 2 px from the truth
-    EXPECT_GT(std::abs(along.dot(end_px - edge.placeOf(edge.scene.truth, y_m))), 1.0);
-  }
-  EXPECT_NEAR(end.translation_m.z(), start.translation_m.z(), 1e-4);
-}
-
-Pose startOf(const OneEdge& edge) {
-  Pose start = edge.scene.truth;
-  start.translation_m += Eigen::Vector3d(0.0006, 0.001, 0.002);
-  start.rotation = (rotationExp({0.0, 0.0, 0.004}) * start.rotation).normalized();
-  return start;
-}
-
-TEST(EdgeRefinement, Anchor_HoldsDirectionsThatOneEdgeDoesNotDetermine) {
-  const OneEdge edge;
-  const Pose start = startOf(edge);
+  Refined alone;
+  alone.pass(edge.scene, edge.scene.truth, 3.0);
+  EXPECT_EQ(alone.status, Status::kDegenerate);
   PosePrior anchor;
-  anchor.camera_from_station = start;
+  anchor.camera_from_station = edge.start;
   anchor.sigma.translation_m.setConstant(0.005);
   anchor.sigma.rotation_rad.setConstant(0.02);
   anchor.sigma.pivot_in_camera_m = {0.0, 0.0, 0.45};
-  Refined refined;
-  refined.pass(edge.scene, start, 4.0, &anchor);
-  ASSERT_EQ(refined.status, Status::kOk);
-  expectHeld(edge, start, refined.result.camera_from_station);
+  const Refined anchored(edge.scene, edge.start, 4.0, &anchor);
+  edge.expectHeld(anchored.pose());
   // The uncertainty along the edge is unchanged; across it, it is far smaller.
-  const Matrix6d& covariance = refined.result.covariance;
+  const Matrix6d& covariance = anchored.result.covariance;
   EXPECT_EQ(covariance.llt().info(), Eigen::Success);
   EXPECT_GT(std::sqrt(covariance(4, 4)), 0.004);
-}
-
-TEST(EdgeRefinement, MatchedPose_HoldsDirectionsThatOneEdgeDoesNotDetermine) {
-  const OneEdge edge;
-  const Pose start = startOf(edge);
   PoseEstimate matched;
-  matched.camera_from_station = start;
+  matched.camera_from_station = edge.start;
   matched.information.diagonal() << 2500.0, 2500.0, 2500.0, 4e4, 4e4, 4e4;
-  Refined refined;
-  refined.pass(edge.scene, start, 4.0, nullptr, &matched);
-  ASSERT_EQ(refined.status, Status::kOk);
-  expectHeld(edge, start, refined.result.camera_from_station);
+  edge.expectHeld(Refined(edge.scene, edge.start, 4.0, nullptr, &matched).pose());
 }
 
 /// Holds all but the translation along the image's rows.
@@ -306,47 +212,32 @@ PoseEstimate holdingAllButX(const Pose& camera_from_station) {
 /// its edge lies `aside_px` further out than in the mesh.
 struct Strip {
   static constexpr double kHalf_m = 0.03;
+  Case scene = sheetCase(-kHalf_m, kHalf_m);
   Picture picture;
-  Case scene;
 
   explicit Strip(double aside_px) {
-    scene.solid.addPrism({{-kHalf_m, -1.0}, {kHalf_m, -1.0}, {kHalf_m, 1.0}, {-kHalf_m, 1.0}},
-                         -0.001, 0.0, 0.9);
-    scene.camera = pinholeCamera();
-    scene.truth.rotation = rotationExp({0.0, 0.0, 0.11}) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-    scene.truth.translation_m = {0.0, 0.0, 0.45};
-    const StepEdge one = edgeAlong(kHalf_m, 0.0, 60.0);
-    const StepEdge other = edgeAlong(-kHalf_m, 0.0, 60.0);
-    const bool one_is_right = one.distance_px > other.distance_px;
+    const StepEdge one = edgeAlong(kHalf_m, 0.0);
+    const StepEdge other = edgeAlong(-kHalf_m, 0.0);
+    const double right_m = one.distance_px > other.distance_px ? kHalf_m : -kHalf_m;
     picture = drawSteps(scene.camera.width, scene.camera.height, 60.0,
-                        {edgeAlong(one_is_right ? -kHalf_m : kHalf_m, 0.0, 60.0),
-                         edgeAlong(one_is_right ? kHalf_m : -kHalf_m, aside_px, 60.0)});
+                        {edgeAlong(-right_m, 0.0), edgeAlong(right_m, aside_px)});
     scene.picture = &picture;
   }
-  StepEdge edgeAlong(double x_m, double aside_px, double contrast) const {
-    Eigen::Vector2d from;
-    Eigen::Vector2d to;
-    EXPECT_TRUE(project(scene.camera, scene.truth * Eigen::Vector3d(x_m, -0.01, 0.0), from));
-    EXPECT_TRUE(project(scene.camera, scene.truth * Eigen::Vector3d(x_m, 0.01, 0.0), to));
-    StepEdge edge;
-    edge.normal = Eigen::Vector2d(to.y() - from.y(), from.x() - to.x()).normalized();
-    if (edge.normal.x() < 0.0) edge.normal = -edge.normal;
-    edge.distance_px = edge.normal.dot(from) + aside_px;
-    edge.contrast = contrast;
-    return edge;
+  StepEdge edgeAlong(double x_m, double aside_px) const {
+    const Eigen::Vector2d from =
+        pixelOf(scene.camera, scene.truth * Eigen::Vector3d(x_m, -0.01, 0.0));
+    const Eigen::Vector2d to = pixelOf(scene.camera, scene.truth * Eigen::Vector3d(x_m, 0.01, 0.0));
+    Eigen::Vector2d normal = Eigen::Vector2d(to.y() - from.y(), from.x() - to.x()).normalized();
+    if (normal.x() < 0.0) normal = -normal;
+    return {normal, normal.dot(from) + aside_px, 60.0};
   }
   /// How far to the right the strip ends up, in pixels along the edges' normal.
   double shift_px() const {
-    Refined refined;
     const PoseEstimate held = holdingAllButX(scene.truth);
-    refined.pass(scene, scene.truth, 2.0, nullptr, &held);
-    EXPECT_EQ(refined.status, Status::kOk);
-    const Pose& pose = refined.result.camera_from_station;
-    Eigen::Vector2d before;
-    Eigen::Vector2d after;
-    EXPECT_TRUE(project(scene.camera, scene.truth.translation_m, before));
-    EXPECT_TRUE(project(scene.camera, pose.translation_m, after));
-    return edgeAlong(kHalf_m, 0.0, 1.0).normal.dot(after - before);
+    const Refined refined(scene, scene.truth, 2.0, nullptr, &held);
+    return edgeAlong(kHalf_m, 0.0)
+        .normal.dot(pixelOf(scene.camera, refined.pose().translation_m) -
+                    pixelOf(scene.camera, scene.truth.translation_m));
   }
 };
 
@@ -359,18 +250,15 @@ TEST(EdgeRefinement, RisingEdge_WeighsLessThanAFallingEdge) {
 
 TEST(EdgeRefinement, OnlyRisingEdges_AreUsed) {
   OneEdge edge;
-  const Picture negative = negativeOf(edge.picture);
-  const PoseEstimate held = holdingAllButX(startOf(edge));
-  std::vector<double> across_px;
-  for (const Picture* picture : {&std::as_const(edge.picture), &negative}) {
-    edge.scene.picture = picture;
-    Refined refined;
-    refined.pass(edge.scene, startOf(edge), 4.0, nullptr, &held);
-    ASSERT_EQ(refined.status, Status::kOk);
+  const PoseEstimate held = holdingAllButX(edge.start);
+  const auto across_px = [&edge, &held] {
+    const Refined refined(edge.scene, edge.start, 4.0, nullptr, &held);
     EXPECT_GT(refined.result.used_count, 60);
-    across_px.push_back(edge.placeOf(refined.result.camera_from_station, 0.0).x());
-  }
-  EXPECT_NEAR(across_px[0], across_px[1], 2e-2);
+    return edge.placeOf(refined.pose(), 0.0).x();
+  };
+  const double of_falling_px = across_px();
+  for (std::uint8_t& gray : edge.picture.gray) gray = static_cast<std::uint8_t>(255 - gray);
+  EXPECT_NEAR(of_falling_px, across_px(), 2e-2);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -11,23 +10,19 @@
 
 #include "core/base/random.h"
 #include "tests/core/refine/step_edge.h"
+#include "tests/support/not_finite.h"
 
 namespace boresight::test {
 namespace {
 
 constexpr int kSide = 64;
-constexpr double kMiddle = 31.5;
+const Eigen::Vector2d kCentre(31.5, 31.5);
 
 /// An edge through the neighbourhood of the image's middle.
 StepEdge edgeAt(double angle_rad, double beyond_middle_px, double contrast) {
-  StepEdge edge;
-  edge.normal = {std::cos(angle_rad), std::sin(angle_rad)};
-  edge.distance_px = edge.normal.dot(Eigen::Vector2d(kMiddle, kMiddle)) + beyond_middle_px;
-  edge.contrast = contrast;
-  return edge;
+  const Eigen::Vector2d normal(std::cos(angle_rad), std::sin(angle_rad));
+  return {normal, normal.dot(kCentre) + beyond_middle_px, contrast};
 }
-
-const Eigen::Vector2d kCentre(kMiddle, kMiddle);
 
 /// Errors of 400 random steps, px.
 std::vector<double> errorsOf(const EdgeSearch& search, std::uint64_t seed) {
@@ -75,65 +70,56 @@ TEST(EdgeSearch, WideSteps_FindStepsToATenthOfAPixel) {
   EXPECT_LT(std::abs(meanOf(errors_px)), 0.01);  // unbiased
 }
 
-/// The search by its definition. Bilinear weights are rounded down to 1/1024.
-class PlainSearch {
- public:
-  PlainSearch(double sigma_px, double step_px) : sigma_px_(sigma_px), step_px_(step_px) {}
+/// Bilinear, with weights that are rounded down to 1/1024.
+double grayAt(const ImageView& image, const Eigen::Vector2d& at) {
+  const int x = static_cast<int>(at.x());
+  const int y = static_cast<int>(at.y());
+  const double right = std::floor((at.x() - x) * 1024.0) / 1024.0;
+  const double down = std::floor((at.y() - y) * 1024.0) / 1024.0;
+  const double top = image.at(x, y) + right * (image.at(x + 1, y) - image.at(x, y));
+  const double bottom = image.at(x, y + 1) + right * (image.at(x + 1, y + 1) - image.at(x, y + 1));
+  return top + down * (bottom - top);
+}
 
-  EdgePeak find(const ImageView& image, const Eigen::Vector2d& predicted,
-                const Eigen::Vector2d& normal, double radius_px, double min_gradient) const {
-    const int inner = static_cast<int>(radius_px / step_px_) + 1;
-    const auto slope = [&](int i) { return slopeAt(image, predicted, normal, i); };
-    EdgePeak peak;
-    double best = 0.0;
-    for (int i = 1 - inner; i < inner; ++i) {
-      const double before = std::abs(slope(i - 1));
-      const double strength = std::abs(slope(i));
-      const double after = std::abs(slope(i + 1));
-      const double rim = static_cast<double>(i) / (inner + 1);
-      const double preference = strength * (1.0 - rim * rim);
-      if (strength < before || strength <= after || strength < min_gradient || preference <= best)
-        continue;
-      best = preference;
-      const double top = 0.5 * (before - after) / (before - 2.0 * strength + after);
-      peak = {(i + top) * step_px_, slope(i)};
-    }
-    return peak;
-  }
-
- private:
-  static double grayAt(const ImageView& image, const Eigen::Vector2d& at) {
-    const int x = static_cast<int>(at.x());
-    const int y = static_cast<int>(at.y());
-    const double right = std::floor((at.x() - x) * 1024.0) / 1024.0;
-    const double down = std::floor((at.y() - y) * 1024.0) / 1024.0;
-    const double top = image.at(x, y) + right * (image.at(x + 1, y) - image.at(x, y));
-    const double bottom =
-        image.at(x, y + 1) + right * (image.at(x + 1, y + 1) - image.at(x, y + 1));
-    return top + down * (bottom - top);
-  }
-  /// Derivative of a Gaussian, scaled to 1 for a ramp of 1, of three parallels that weigh 1, 2, 1.
-  double slopeAt(const ImageView& image, const Eigen::Vector2d& predicted,
-                 const Eigen::Vector2d& normal, int i) const {
-    const Eigen::Vector2d aside(-normal.y(), normal.x());
-    const auto profile = [&](int k) {
-      const Eigen::Vector2d at = predicted + k * step_px_ * normal;
-      return 0.25 * grayAt(image, at - aside) + 0.5 * grayAt(image, at) +
-             0.25 * grayAt(image, at + aside);
-    };
+/// The search by its definition.
+EdgePeak plainSearch(double sigma_px, double step_px, const ImageView& image,
+                     const Eigen::Vector2d& predicted, const Eigen::Vector2d& normal,
+                     double radius_px, double min_gradient) {
+  const Eigen::Vector2d aside(-normal.y(), normal.x());
+  const auto profile = [&](int k) {
+    const Eigen::Vector2d at = predicted + k * step_px * normal;
+    return 0.25 * grayAt(image, at - aside) + 0.5 * grayAt(image, at) +
+           0.25 * grayAt(image, at + aside);
+  };
+  // Derivative of a Gaussian, scaled to 1 for a ramp of 1, of three parallels that weigh 1, 2, 1.
+  const auto slope = [&](int i) {
     double sum = 0.0;
     double ramp = 0.0;
-    for (int k = 1; k <= static_cast<int>(3.0 * sigma_px_ / step_px_ + 0.5); ++k) {
-      const double s_px = k * step_px_;
-      const double weight = s_px * std::exp(-0.5 * s_px * s_px / (sigma_px_ * sigma_px_));
+    for (int k = 1; k <= static_cast<int>(3.0 * sigma_px / step_px + 0.5); ++k) {
+      const double s_px = k * step_px;
+      const double weight = s_px * std::exp(-0.5 * s_px * s_px / (sigma_px * sigma_px));
       sum += weight * (profile(i + k) - profile(i - k));
       ramp += 2.0 * s_px * weight;
     }
     return sum / ramp;
+  };
+  const int inner = static_cast<int>(radius_px / step_px) + 1;
+  EdgePeak peak;
+  double best = 0.0;
+  for (int i = 1 - inner; i < inner; ++i) {
+    const double before = std::abs(slope(i - 1));
+    const double strength = std::abs(slope(i));
+    const double after = std::abs(slope(i + 1));
+    const double rim = static_cast<double>(i) / (inner + 1);
+    const double preference = strength * (1.0 - rim * rim);
+    if (strength < before || strength <= after || strength < min_gradient || preference <= best)
+      continue;
+    best = preference;
+    const double top = 0.5 * (before - after) / (before - 2.0 * strength + after);
+    peak = {(i + top) * step_px, slope(i)};
   }
-  double sigma_px_;
-  double step_px_;
-};
+  return peak;
+}
 
 TEST(EdgeSearch, NoiseInEveryDirection_GivesTheEdgeOfTheDefinition) {
   // A weight that is rounded the other way, as places are in integers, changes little.
@@ -153,32 +139,32 @@ TEST(EdgeSearch, NoiseInEveryDirection_GivesTheEdgeOfTheDefinition) {
     const EdgePeak peak =
         EdgeSearch(sigma_px, step_px)
             .find(noise.view(), nullptr, predicted, normal, radius_px, min_gradient);
-    const EdgePeak plain = PlainSearch(sigma_px, step_px)
-                               .find(noise.view(), predicted, normal, radius_px, min_gradient);
+    const EdgePeak plain =
+        plainSearch(sigma_px, step_px, noise.view(), predicted, normal, radius_px, min_gradient);
     found += plain.gradient != 0.0 ? 1 : 0;
-    different += std::abs(peak.gradient - plain.gradient) > 0.05 ||
-                         std::abs(peak.offset_px - plain.offset_px) > 0.02
-                     ? 1
-                     : 0;
+    if (std::abs(peak.gradient - plain.gradient) > 0.05 ||
+        std::abs(peak.offset_px - plain.offset_px) > 0.02)
+      ++different;
   }
   EXPECT_GT(found, 1000);
   EXPECT_LE(different, 4);
 }
 
 TEST(EdgeSearch, IgnoredEdges_AreNotFound) {
-  const EdgeSearch search(1.0);
   const StepEdge edge = edgeAt(0.0, 1.5, 90.0);  // at x = 33, y = 31 or 32
   const Picture picture = drawSteps(kSide, kSide, 20.0, {edge});
-  const Eigen::Vector2d predicted(31.5, 31.2);
+  const auto gradientWith = [&](const Mask& mask) {
+    return EdgeSearch(1.0)
+        .find(picture.view(), &mask.bits, {31.5, 31.2}, edge.normal, 4.0, 2.0)
+        .gradient;
+  };
   Mask elsewhere(kSide, kSide);
   elsewhere.fill(0, 0, kSide, kSide);
   elsewhere.bits.reset(33, 31);
-  EXPECT_GT(search.find(picture.view(), &elsewhere.bits, predicted, edge.normal, 4.0, 2.0).gradient,
-            0.0);
+  EXPECT_GT(gradientWith(elsewhere), 0.0);
   Mask mask(kSide, kSide);
   mask.bits.set(33, 31);
-  EXPECT_EQ(search.find(picture.view(), &mask.bits, predicted, edge.normal, 4.0, 2.0).gradient,
-            0.0);
+  EXPECT_EQ(gradientWith(mask), 0.0);
 }
 
 TEST(EdgeSearch, ProfilesThatLeaveTheImage_FindNoEdge) {
@@ -192,15 +178,10 @@ TEST(EdgeSearch, ProfilesThatLeaveTheImage_FindNoEdge) {
     const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
     const EdgePeak peak = search.find(noise.view(), nullptr, predicted, normal, 4.0, 0.0);
     // 4 px of radius, half a pixel and 3 sigma for the derivative.
-    bool inside = true;
-    for (const double reach : {-7.5, 7.5}) {
-      for (const double side : {-1.0, 1.0}) {
-        const Eigen::Vector2d end =
-            predicted + reach * normal + side * Eigen::Vector2d(-normal.y(), normal.x());
-        inside = inside && end.x() >= 0.0 && end.y() >= 0.0 && end.x() < kSide - 1 &&
-                 end.y() < kSide - 1;
-      }
-    }
+    const Eigen::Vector2d half =
+        7.5 * normal.cwiseAbs() + Eigen::Vector2d(normal.y(), normal.x()).cwiseAbs();
+    const bool inside =
+        (predicted - half).minCoeff() >= 0.0 && (predicted + half).maxCoeff() < kSide - 1;
     EXPECT_TRUE(inside || peak.gradient == 0.0) << predicted.transpose() << " " << angle;
     found += peak.gradient != 0.0 ? 1 : 0;
   }
@@ -209,13 +190,7 @@ TEST(EdgeSearch, ProfilesThatLeaveTheImage_FindNoEdge) {
 
 TEST(EdgeSearch, AnyInput_GivesAFiniteResult) {
   const Picture noise = noisePicture(kSide, kSide, 2);
-  const double values[] = {0.0,
-                           -1e300,
-                           1e300,
-                           1e9,
-                           31.0,
-                           std::numeric_limits<double>::infinity(),
-                           std::numeric_limits<double>::quiet_NaN()};
+  const double values[] = {0.0, -1e300, 1e300, 1e9, 31.0, kInfinity, kNan};
   for (const double sigma_px : {0.3, 1.0, 5.0}) {
     const EdgeSearch search(sigma_px);
     for (const double x : values) {

@@ -37,36 +37,39 @@ Sample randomSample(Random& random) {
   return sample;
 }
 
+std::vector<Sample> noisySamples(Random& random, int count) {
+  std::vector<Sample> samples;
+  for (int i = 0; i < count; ++i) {
+    samples.push_back(randomSample(random));
+    samples.back().residual_px = kNoise_px * random.normal();
+  }
+  return samples;
+}
+
 int sectorByAngle(const Eigen::Vector2d& direction) {
   const double angle = std::atan2(direction.y(), direction.x());
   const double turn = (angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle) / std::numbers::pi;
   return static_cast<int>(turn * 8.0) % 16;
 }
 
-/// Memory and groups of a problem; the unit weights' curvature.
-class Grouped {
- public:
+/// The sums of samples with unit weights, and their covariance.
+struct Grouped {
   explicit Grouped(const std::vector<Sample>& samples) {
-    Arena arena(memory_);
-    EXPECT_EQ(groups_.create(arena), Status::kOk);
-    groups_.clear();
+    std::array<std::byte, 16384> memory{};
+    Arena arena(memory);
+    ErrorGroups groups;
+    EXPECT_EQ(groups.create(arena), Status::kOk);
+    groups.clear();
     for (const Sample& sample : samples) {
-      groups_.add(sample.error, sample.residual_px, sample.row);
-      sums_.curvature += sample.row * sample.row.transpose();
+      groups.add(sample.error, sample.residual_px, sample.row);
+      sums.curvature += sample.row * sample.row.transpose();
     }
-    groups_.sum(sums_);
-    solved_ = sums_.covariance(covariance_);
+    groups.sum(sums);
+    solved = sums.covariance(covariance);
   }
-  bool solved() const { return solved_; }
-  const Matrix6d& covariance() const { return covariance_; }
-  const ErrorSums& sums() const { return sums_; }
-
- private:
-  std::array<std::byte, 16384> memory_{};
-  ErrorGroups groups_;
-  ErrorSums sums_;
-  Matrix6d covariance_ = Matrix6d::Zero();
-  bool solved_ = false;
+  ErrorSums sums;
+  Matrix6d covariance = Matrix6d::Zero();
+  bool solved = false;
 };
 
 TEST(ErrorGroups, SectorsAreThoseOfTheAngle) {
@@ -84,13 +87,9 @@ TEST(ErrorGroups, SectorsAreThoseOfTheAngle) {
 
 TEST(ErrorGroups, EqualsSumsOverMaps) {
   Random random(2);
-  std::vector<Sample> samples;
-  for (int i = 0; i < 3000; ++i) {
-    samples.push_back(randomSample(random));
-    samples.back().residual_px = kNoise_px * random.normal();
-  }
+  const std::vector<Sample> samples = noisySamples(random, 3000);
   const Grouped grouped(samples);
-  ASSERT_TRUE(grouped.solved());
+  ASSERT_TRUE(grouped.solved);
   std::array<std::map<std::array<int, 2>, Vector6d>, 3> ways;
   for (const Sample& sample : samples) {
     const int sector = sectorByAngle(sample.error.normal);
@@ -110,18 +109,15 @@ TEST(ErrorGroups, EqualsSumsOverMaps) {
     for (const auto& [key, sum] : way) squares += sum * sum.transpose() * count / (count - 1.0);
   }
   // An offset of all edges by 0.05 px outwards, along x and along y leaves no residual.
-  std::array<Vector6d, 3> common;
-  common.fill(Vector6d::Zero());
-  for (const Sample& sample : samples) {
-    common[0] += 0.05 * sample.row;
-    common[1] += 0.05 * sample.error.normal.x() * sample.row;
-    common[2] += 0.05 * sample.error.normal.y() * sample.row;
-  }
-  for (const Vector6d& offset : common) squares += offset * offset.transpose();
-  const Matrix6d inverse = grouped.sums().curvature.inverse();
+  Eigen::Matrix<double, 6, 3> common = Eigen::Matrix<double, 6, 3>::Zero();
+  for (const Sample& sample : samples)
+    common += 0.05 * sample.row *
+              Eigen::RowVector3d(1.0, sample.error.normal.x(), sample.error.normal.y());
+  squares += common * common.transpose();
+  const Matrix6d inverse = grouped.sums.curvature.inverse();
   const Matrix6d expected = inverse * squares * inverse;
-  EXPECT_LT((grouped.covariance() - expected).norm(), 1e-9 * expected.norm());
-  EXPECT_EQ(grouped.covariance(), grouped.covariance().transpose());
+  EXPECT_LT((grouped.covariance - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_EQ(grouped.covariance, grouped.covariance.transpose());
 }
 
 /// Mean normalized squared error of least squares over many draws: six when the covariance is what
@@ -152,36 +148,27 @@ double meanSquaredError(double shared_px, std::uint64_t seed) {
     const Vector6d error = information.ldlt().solve(gradient);
     for (Sample& sample : samples) sample.residual_px -= sample.row.dot(error);
     const Grouped grouped(samples);
-    EXPECT_TRUE(grouped.solved());
-    sum += error.dot(grouped.covariance().ldlt().solve(error));
+    EXPECT_TRUE(grouped.solved);
+    sum += error.dot(grouped.covariance.ldlt().solve(error));
   }
   return sum / kDraws;
 }
 
-TEST(ErrorGroups, IndependentErrorsCountInEachWayOfGrouping) {
-  // Less than 6 / 3, as the offset of all edges that is assumed is not in these errors.
-  const double mean = meanSquaredError(0.0, 3);
-  EXPECT_GT(mean, 0.7 * 6.0 / 3.0);
-  EXPECT_LT(mean, 1.4 * 6.0 / 3.0);
-}
-
-TEST(ErrorGroups, ErrorsThatNeighboursShareAreCovered) {
-  const double mean = meanSquaredError(0.3, 4);
-  EXPECT_GT(mean, 2.0);
-  EXPECT_LT(mean, 6.6) << "larger would be a covariance that is too small";
+TEST(ErrorGroups, CovarianceCoversIndependentAndSharedErrors) {
+  // Each of the three ways of grouping counts independent errors: 6 / 3, and less, as the offset of
+  // all edges that is assumed is not in these errors.
+  const double independent = meanSquaredError(0.0, 3);
+  EXPECT_GT(independent, 0.7 * 6.0 / 3.0);
+  EXPECT_LT(independent, 1.4 * 6.0 / 3.0);
+  const double shared = meanSquaredError(0.3, 4);
+  EXPECT_GT(shared, 2.0);
+  EXPECT_LT(shared, 6.6) << "larger would be a covariance that is too small";
 }
 
 TEST(ErrorGroups, TwoViews_AddTheirErrorsInOneFrame) {
   Random random(6);
-  std::vector<Sample> samples;
-  for (int i = 0; i < 500; ++i) {
-    samples.push_back(randomSample(random));
-    samples.back().residual_px = kNoise_px * random.normal();
-  }
-  const ErrorSums own = Grouped(samples).sums();
-  Pose camera_from_first;
-  camera_from_first.rotation = rotationExp({0.1, -0.3, 0.2});
-  camera_from_first.translation_m = {0.2, -0.1, 0.05};
+  const ErrorSums own = Grouped(noisySamples(random, 500)).sums;
+  const Pose camera_from_first{rotationExp({0.1, -0.3, 0.2}), {0.2, -0.1, 0.05}};
   const Matrix6d adjoint = adjointOf(camera_from_first);
   Matrix6d alone, brought, both;
   ASSERT_TRUE(own.covariance(alone));
@@ -195,7 +182,7 @@ TEST(ErrorGroups, TwoViews_AddTheirErrorsInOneFrame) {
   sum.add(own);
   ASSERT_TRUE(sum.covariance(both));
   EXPECT_LT((2.0 * both - alone).norm(), 1e-9 * alone.norm());
-  sum.add(Grouped({}).sums());
+  sum.add(Grouped({}).sums);
   EXPECT_FALSE(sum.covariance(both));
 }
 
@@ -206,8 +193,8 @@ TEST(ErrorGroups, SingleGroup_GivesNoCovariance) {
     sample.residual_px = 0.1;
     for (int i = 0; i < 6; ++i) sample.row[i] = random.normal();
   }
-  EXPECT_FALSE(Grouped(samples).solved());
-  EXPECT_FALSE(Grouped({}).solved());
+  EXPECT_FALSE(Grouped(samples).solved);
+  EXPECT_FALSE(Grouped({}).solved);
 }
 
 }  // namespace

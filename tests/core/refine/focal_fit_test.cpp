@@ -5,33 +5,24 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/localizer/scene.h"
+#include "tests/core/refine/refined.h"
 
 namespace boresight::test {
 namespace {
 
 /// The pose refined on the case's edges, and its focal length.
 FocalFit fitAfterRefining(const Case& scene) {
-  const RefinementOptions options;
-  std::vector<std::byte> memory(std::size_t{4} << 20);
-  Arena arena(memory);
-  EdgeRefinement refinement;
-  RefinementResult result;
-  FocalFitter fitter;
-  EXPECT_EQ(refinement.create(options, arena), Status::kOk);
-  EXPECT_EQ(fitter.create(options.max_samples, arena), Status::kOk);
-  result.samples = arena.allocate<EdgeSample>(static_cast<std::size_t>(options.max_samples));
-  result.camera_from_station = scene.truth;
+  Refined refined;
+  refined.result.camera_from_station = scene.truth;
   for (const double radius_px : {6.0, 3.0, 3.0}) {
-    const Rendering rendering = renderEdges(scene.solid, scene.camera, result.camera_from_station);
-    EXPECT_EQ(refinement.begin(scene.picture->view(), nullptr, scene.camera, scene.solid.view(),
-                               rendering.edges, radius_px, nullptr, nullptr, result),
-              Status::kOk);
-    Status status = Status::kOk;
-    for (bool done = false; !done && status == Status::kOk;) status = refinement.step(done);
-    EXPECT_EQ(status, Status::kOk);
+    refined.pass(scene, refined.pose(), radius_px);
+    EXPECT_EQ(refined.status, Status::kOk);
   }
-  fitter.begin(scene.camera, result);
+  std::vector<std::byte> memory(std::size_t{1} << 20);
+  Arena arena(memory);
+  FocalFitter fitter;
+  EXPECT_EQ(fitter.create(RefinementOptions().max_samples, arena), Status::kOk);
+  fitter.begin(scene.camera, refined.result);
   int steps = 1;
   while (!fitter.step() && steps < 100) ++steps;
   EXPECT_LE(steps, FocalFitter::kRounds);
@@ -68,8 +59,7 @@ TEST(FocalFit, PlateSeenFromTheFront_DoesNotDetermineTheFocalLength) {
   Case scene = stationCase(1);
   scene.solid = Solid();
   scene.solid.addBox(0.0, 0.0, 0.06, 0.05, 0.3, 0.0, 0.001, 0.6);
-  scene.truth.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-  scene.truth.translation_m = Eigen::Vector3d(0.0, 0.0, 0.45);
+  scene.truth = {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.45}};
   const Picture picture = takePicture(scene.solid, scene.camera, scene.truth);
   scene.picture = &picture;
   const FocalFit fit = fitAfterRefining(withFocalFactor(scene, 1.04));
@@ -77,20 +67,18 @@ TEST(FocalFit, PlateSeenFromTheFront_DoesNotDetermineTheFocalLength) {
 }
 
 TEST(FocalFit, Disagrees_OnlyBeyondEveryLimit) {
-  FocalFit fit;
-  fit.change = -0.02;
-  fit.sigma = 0.002;
-  EXPECT_FALSE(fit.disagrees());
-  fit.determined = true;
-  EXPECT_TRUE(fit.disagrees());
-  fit.sigma = 0.006;  // 3.3 sigma
-  EXPECT_FALSE(fit.disagrees());
-  fit.change = 0.2;
-  fit.sigma = 0.02;  // the image determines it too weakly
-  EXPECT_FALSE(fit.disagrees());
-  fit.change = 0.003;  // right cameras have as much
-  fit.sigma = 0.0001;
-  EXPECT_FALSE(fit.disagrees());
+  const auto disagrees = [](bool determined, double change, double sigma) {
+    FocalFit fit;
+    fit.determined = determined;
+    fit.change = change;
+    fit.sigma = sigma;
+    return fit.disagrees();
+  };
+  EXPECT_FALSE(disagrees(false, -0.02, 0.002));
+  EXPECT_TRUE(disagrees(true, -0.02, 0.002));
+  EXPECT_FALSE(disagrees(true, -0.02, 0.006));   // 3.3 sigma
+  EXPECT_FALSE(disagrees(true, 0.2, 0.02));      // the image determines it too weakly
+  EXPECT_FALSE(disagrees(true, 0.003, 0.0001));  // right cameras have as much
 }
 
 }  // namespace

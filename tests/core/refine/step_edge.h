@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,13 +15,11 @@ namespace boresight::test {
 /// corners, clipped by the line (Sutherland and Hodgman 1974), and the shoelace formula.
 inline double areaBeyond(const Eigen::Vector2d& centre, const Eigen::Vector2d& normal,
                          double distance) {
-  const std::array<Eigen::Vector2d, 4> corner = {
-      centre + Eigen::Vector2d(-0.5, -0.5), centre + Eigen::Vector2d(0.5, -0.5),
-      centre + Eigen::Vector2d(0.5, 0.5), centre + Eigen::Vector2d(-0.5, 0.5)};
+  const Eigen::Vector2d half[] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
   std::vector<Eigen::Vector2d> kept;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector2d& from = corner[i];
-    const Eigen::Vector2d& to = corner[(i + 1) % 4];
+    const Eigen::Vector2d from = centre + half[i];
+    const Eigen::Vector2d to = centre + half[(i + 1) % 4];
     const double s_from = normal.dot(from) - distance;
     const double s_to = normal.dot(to) - distance;
     if (s_from > 0.0) kept.push_back(from);

@@ -7,20 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "tests/core/geometry/example_cameras.h"
 
 namespace boresight {
 namespace {
 
 constexpr double kFocal_px = 1000.0;
 
-Camera camera() {
-  Camera camera;
-  camera.width = camera.height = 1024;
-  camera.fx = camera.fy = kFocal_px;
-  camera.cx = camera.cy = 511.5;
-  EXPECT_EQ(prepareCamera(camera), Status::kOk);
-  return camera;
-}
+Camera camera() { return test::makePinhole(1024, 1024, kFocal_px); }
 
 /// Edge places in front of the camera, with the station's frame in the camera's.
 struct Places {
@@ -41,52 +35,41 @@ struct Places {
   }
 };
 
+/// Edges in all directions, which determine everything.
+Places randomPlaces(Random& random, const Eigen::Vector2d& half_m, double near_m, double far_m) {
+  Places places;
+  for (int i = 0; i < 300; ++i) {
+    const double angle_rad = random.uniform(0.0, 6.283);
+    places.add({random.uniform(-1.0, 1.0) * half_m.x(), random.uniform(-1.0, 1.0) * half_m.y(),
+                random.uniform(near_m, far_m)},
+               std::cos(angle_rad), std::sin(angle_rad));
+  }
+  return places;
+}
+
 /// Root mean square of the places' motion when the pose moves: of all of it, and along the normals.
 struct Motion {
   double all_px = 0.0;
   double normal_px = 0.0;
 };
 
-Motion motionOf(const Places& places, const Pose& moved) {
+Motion motionOf(const Places& places, const Pose& moved, const Pose& camera_from_first = Pose()) {
   Motion motion;
   for (const EdgeSample& sample : places.samples) {
-    Eigen::Vector2d before;
-    Eigen::Vector2d after;
-    EXPECT_TRUE(project(camera(), sample.point_in_station_m, before));
-    EXPECT_TRUE(project(camera(), moved * sample.point_in_station_m, after));
-    motion.all_px += (after - before).squaredNorm();
-    motion.normal_px += std::pow(sample.normal().dot(after - before), 2);
+    const Eigen::Vector3d& point_m = sample.point_in_station_m;
+    const Eigen::Vector2d motion_px =
+        test::pixelOf(camera(), camera_from_first * (moved * point_m)) -
+        test::pixelOf(camera(), camera_from_first * point_m);
+    motion.all_px += motion_px.squaredNorm();
+    motion.normal_px += std::pow(sample.normal().dot(motion_px), 2);
   }
   const auto count = static_cast<double>(places.samples.size());
   return {std::sqrt(motion.all_px / count), std::sqrt(motion.normal_px / count)};
 }
 
-TEST(WeakDirections, LongBar_IsWeakAlongItself) {
-  Places places;
-  for (int i = -50; i <= 50; ++i) {
-    places.add({0.002 * i, 0.01, 0.5}, 0.0, 1.0);
-    places.add({0.002 * i, -0.01, 0.5}, 0.0, -1.0);
-  }
-  const WeakDirections weak = weakDirections(places.result(), camera(), {0.0, 0.0, 0.5});
-  ASSERT_TRUE(weak.known);
-  EXPECT_LT(weak.seen[0], 1e-6);
-  for (const double motion_px : {-3.0, 5.0}) {
-    const Pose moved = weak.moved(Pose(), 0, motion_px);
-    const Motion motion = motionOf(places, moved);
-    EXPECT_NEAR(motion.all_px, std::abs(motion_px), 0.05);
-    EXPECT_LT(motion.normal_px, 0.1);
-    EXPECT_NEAR(std::abs(moved.translation_m.x()), std::abs(motion_px) * 0.5 / kFocal_px, 2e-4);
-  }
-}
-
 TEST(WeakDirections, NoOtherDirection_IsWeaker) {
   Random random(3);
-  Places places;
-  for (int i = 0; i < 300; ++i) {
-    const double angle_rad = random.uniform(0.0, 6.283);
-    places.add({random.uniform(-0.05, 0.05), random.uniform(-0.03, 0.03), random.uniform(0.4, 0.5)},
-               std::cos(angle_rad), std::sin(angle_rad));
-  }
+  Places places = randomPlaces(random, {0.05, 0.03}, 0.4, 0.5);
   const WeakDirections weak = weakDirections(places.result(), camera(), {0.0, 0.0, 0.45});
   ASSERT_TRUE(weak.known);
   EXPECT_LE(weak.seen[0], weak.seen[1]);
@@ -105,12 +88,21 @@ TEST(WeakDirections, NoOtherDirection_IsWeaker) {
 }
 
 /// A slide along the bar is known as the seed knows it, and nothing else has changed.
-TEST(WeakDirections, UndeterminedDirection_KeepsTheSeedsVariance) {
+TEST(WeakDirections, LongBar_IsWeakAlongItselfAndKeepsTheSeedsVarianceThere) {
   Places places;
   for (int i = -50; i <= 50; ++i)
     for (const double side : {-1.0, 1.0})
       for (const double z_m : {0.45, 0.55}) places.add({0.002 * i, 0.05 * side, z_m}, 0.0, side);
   const WeakDirections weak = weakDirections(places.result(), camera(), {0.0, 0.0, 0.5});
+  ASSERT_TRUE(weak.known);
+  EXPECT_LT(weak.seen[0], 1e-6);
+  for (const double motion_px : {-3.0, 5.0}) {
+    const Pose moved = weak.moved(Pose(), 0, motion_px);
+    const Motion motion = motionOf(places, moved);
+    EXPECT_NEAR(motion.all_px, std::abs(motion_px), 0.05);
+    EXPECT_LT(motion.normal_px, 0.1);
+    EXPECT_NEAR(std::abs(moved.translation_m.x()), std::abs(motion_px) * 0.5 / kFocal_px, 2e-4);
+  }
   ASSERT_TRUE(weak.isUndetermined(0));
   EXPECT_FALSE(weak.isUndetermined(1));
   SeedUncertainty uncertainty;
@@ -174,35 +166,18 @@ TEST(WeakDirections, SecondView_DeterminesWhatTheFirstLeaves) {
   for (std::size_t k = 0; k < 2; ++k) {
     const Pose moved = weak.moved(Pose(), static_cast<int>(k), 0.01);
     const Motion of_first = motionOf(along, moved);
-    Motion of_second;
-    for (const EdgeSample& sample : ends.samples) {
-      Eigen::Vector2d before;
-      Eigen::Vector2d after;
-      ASSERT_TRUE(project(camera(), second_from_first * sample.point_in_station_m, before));
-      ASSERT_TRUE(project(camera(), second_from_first * moved * sample.point_in_station_m, after));
-      of_second.all_px += (after - before).squaredNorm();
-      of_second.normal_px += std::pow(sample.normal().dot(after - before), 2);
-    }
-    const double count = static_cast<double>(ends.samples.size());
-    const double all2 = 0.5 * (of_first.all_px * of_first.all_px + of_second.all_px / count);
-    const double normal2 =
-        0.5 * (of_first.normal_px * of_first.normal_px + of_second.normal_px / count);
-    EXPECT_NEAR(std::sqrt(all2), 0.01, 1e-4);
-    EXPECT_NEAR(std::sqrt(normal2 / all2), weak.seen[k], 0.01);
+    const Motion of_second = motionOf(ends, moved, second_from_first);
+    const double all_px = std::hypot(of_first.all_px, of_second.all_px);
+    EXPECT_NEAR(std::sqrt(0.5) * all_px, 0.01, 1e-4);
+    EXPECT_NEAR(std::hypot(of_first.normal_px, of_second.normal_px) / all_px, weak.seen[k], 0.01);
   }
   const WeakDirections alone = first_alone.weakDirections();
   EXPECT_GT(weak.seen[0], alone.seen[0] + 0.05);
 }
 
-/// Edges in all directions determine everything.
 TEST(WeakDirections, DeterminedPose_KeepsItsCovariance) {
   Random random(5);
-  Places places;
-  for (int i = 0; i < 300; ++i) {
-    const double angle_rad = random.uniform(0.0, 6.283);
-    places.add({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.3, 0.6)},
-               std::cos(angle_rad), std::sin(angle_rad));
-  }
+  Places places = randomPlaces(random, {0.1, 0.1}, 0.3, 0.6);
   const WeakDirections weak = weakDirections(places.result(), camera(), {0.0, 0.0, 0.45});
   const Matrix6d covariance = 1e-8 * Matrix6d::Identity();
   EXPECT_EQ(withUndetermined(covariance, weak, SeedUncertainty()), covariance);

@@ -12,18 +12,11 @@ namespace {
 
 /// Half a turn about x: its matrix has the elements 0, 1 and -1 only.
 Pose facing(double x_m, double z_m) {
-  Pose pose;
-  pose.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-  pose.translation_m = {x_m, 0.0, z_m};
-  return pose;
+  return {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {x_m, 0.0, z_m}};
 }
 
 /// Half a turn about z, as exact.
-Pose upsideDown() {
-  Pose pose;
-  pose.rotation = Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0);
-  return pose;
-}
+Pose upsideDown() { return {Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0), Eigen::Vector3d::Zero()}; }
 
 /// A bar at z = 0.25 m: x from -1/64 to 1/64 m, y from -1/16 to 1/32 m.
 void addBar(const Pose& frame_from_camera, SceneMesh& mesh) {
@@ -69,8 +62,7 @@ TEST(CameraParts, StationPoses_DoNotMoveThem) {
       const double x_m = (x - camera.cx) / camera.fx * 0.25;
       const double y_m = (y - camera.cy) / camera.fy * 0.25;
       const double margin_m = 1e-4;
-      const double outside = std::max({std::abs(x_m) - 0x1p-6, -0x1p-4 - y_m,
-                                       y_m - 0x1p-5});
+      const double outside = std::max({std::abs(x_m) - 0x1p-6, -0x1p-4 - y_m, y_m - 0x1p-5});
       if (std::abs(outside) < margin_m) continue;
       EXPECT_EQ(barPixels(mesh, first)[first.at(x, y)], outside < 0.0) << x << " " << y;
     }
@@ -78,9 +70,8 @@ TEST(CameraParts, StationPoses_DoNotMoveThem) {
 
 TEST(CameraParts, Render_EqualsThatOfAPartMovedByHand) {
   const SceneMesh mesh = withCameraBar();
-  for (const Camera& camera :
-       {pinholeCamera(200, 160, 320.0), brownCamera(200, 160, 320.0, -0.28),
-        fisheyeCamera(200, 160, 320.0), pupilCamera(200, 160, 320.0, 0.004)})
+  for (const Camera& camera : {pinholeCamera(200, 160, 320.0), brownCamera(200, 160, 320.0, -0.28),
+                               fisheyeCamera(200, 160, 320.0), pupilCamera(200, 160, 320.0, 0.004)})
     for (const double x_m : {0.0, 0.03125, -0.046875}) {
       const Pose pose = facing(x_m, 0.5);
       SceneMesh by_hand = station();
@@ -103,22 +94,11 @@ TEST(CameraParts, TurnedView_TurnsThem) {
   const Rendered expected = render(by_hand, camera, seen);
 
   const SceneMesh mesh = withCameraBar();
-  std::vector<std::byte> memory(std::size_t{4} << 20);
-  Arena arena(memory);
-  MeshAdjacency adjacency;
-  RayGrid rays;
-  EdgeRenderer renderer;
-  ASSERT_EQ(buildAdjacency(mesh.view(), arena, adjacency), Status::kOk);
-  ASSERT_EQ(RayGrid::create(camera, arena, rays), Status::kOk);
-  EdgeRender output = createEdgeRender(camera.width, camera.height, RenderOptions(), arena);
-  ASSERT_EQ(renderer.create(mesh.view(), adjacency, camera.width, camera.height, RenderOptions(),
-                            arena),
-            Status::kOk);
-  ASSERT_EQ(renderer.begin(rays, seen, output, {}, upsideDown()), Status::kOk);
-  bool done = false;
-  while (!done) ASSERT_EQ(renderer.step(done), Status::kOk);
-  expectEqual(output, expected.edges);
-  EXPECT_GT(output.pixel_count, 100);
+  Rendered turned(mesh, camera);
+  ASSERT_EQ(turned.renderer.begin(turned.rays, seen, turned.edges, {}, upsideDown()), Status::kOk);
+  ASSERT_EQ(turned.finish(), Status::kOk);
+  expectEqual(turned.edges, expected.edges);
+  EXPECT_GT(turned.edges.pixel_count, 100);
 }
 
 }  // namespace

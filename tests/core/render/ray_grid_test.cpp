@@ -1,98 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/core/render/scenes.h"
+#include "tests/support/not_finite.h"
 
 namespace boresight::testing {
 namespace {
 
-struct Deviation {
-  double ray = 0.0;       ///< largest difference of (x/z, y/z)
-  double pixel_px = 0.0;  ///< largest distance after projecting back
-  int disagreements = 0;  ///< pixels valid in one way and not in the other
-};
-
-Deviation deviationOf(const Camera& camera) {
-  std::vector<std::byte> memory(std::size_t{8} << 20);
+/// A grid whose memory is used again by the next one.
+RayGrid gridOf(const Camera& camera) {
+  static std::vector<std::byte> memory(std::size_t{8} << 20);
   Arena arena(memory);
   RayGrid grid;
   EXPECT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
-  Deviation worst;
-  const auto width = static_cast<std::size_t>(camera.width);
-  std::vector<double> x(width), y(width);
-  std::vector<std::uint8_t> valid(width);
-  for (int row = 0; row < camera.height; row += 3) {
-    // Pieces of rows, beginning anywhere.
-    const int begin = (row * 7) % 50;
-    const int count = camera.width - begin - (row * 5) % 31;
-    grid.row(row, begin, count, x.data(), y.data(), valid.data());
-    for (int i = 0; i < count; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      Eigen::Vector3d ray;
-      const bool ok = unproject(camera, Eigen::Vector2d(begin + i, row), ray);
-      if (ok != (valid[k] != 0)) ++worst.disagreements;
-      if (!ok || valid[k] == 0) continue;
-      worst.ray = std::max({worst.ray, std::abs(x[k] - ray.x()), std::abs(y[k] - ray.y())});
-      Eigen::Vector2d pixel;
-      EXPECT_TRUE(project(camera, Eigen::Vector3d(x[k], y[k], 1.0), pixel));
-      worst.pixel_px = std::max(worst.pixel_px, (pixel - Eigen::Vector2d(begin + i, row)).norm());
+  return grid;
+}
+
+TEST(RayGrid, Rays_AreThoseOfTheCamera) {
+  const struct {
+    Camera camera;
+    double most_ray;       ///< difference of (x/z, y/z)
+    double most_pixel_px;  ///< distance after projecting back
+  } cases[] = {{pinholeCamera(333, 257, 300.0), 1e-15, test::kInfinity},
+               {brownCamera(2048, 1024, 3100.0, -0.12), 1e-9, test::kInfinity},
+               {brownCamera(1024, 777, 900.0, -0.28), 3e-8, test::kInfinity},
+               {fisheyeCamera(1000, 800, 330.0), test::kInfinity, 3e-5},
+               // Pixels outside the valid field are marked.
+               {brownCamera(400, 300, 180.0, -0.35), test::kInfinity, 3e-5}};
+  for (const auto& [camera, most_ray, most_pixel_px] : cases) {
+    SCOPED_TRACE(camera.fx);
+    const RayGrid grid = gridOf(camera);
+    const auto width = static_cast<std::size_t>(camera.width);
+    std::vector<double> x(width), y(width);
+    std::vector<std::uint8_t> valid(width);
+    for (int row = 0; row < camera.height; row += 3) {
+      // Pieces of rows, beginning anywhere.
+      const int begin = (row * 7) % 50;
+      const int count = camera.width - begin - (row * 5) % 31;
+      grid.row(row, begin, count, x.data(), y.data(), valid.data());
+      for (int i = 0; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const Eigen::Vector2d at(begin + i, row);
+        Eigen::Vector3d ray;
+        Eigen::Vector2d pixel;
+        ASSERT_EQ(unproject(camera, at, ray), valid[k] != 0) << at.transpose();
+        if (valid[k] == 0) continue;
+        EXPECT_LT(std::max(std::abs(x[k] - ray.x()), std::abs(y[k] - ray.y())), most_ray);
+        EXPECT_TRUE(project(camera, Eigen::Vector3d(x[k], y[k], 1.0), pixel));
+        EXPECT_LT((pixel - at).norm(), most_pixel_px);
+      }
     }
   }
-  return worst;
-}
-
-TEST(RayGrid, PinholeIsExact) { EXPECT_LT(deviationOf(pinholeCamera(333, 257, 300.0)).ray, 1e-15); }
-
-TEST(RayGrid, MildDistortionWithinABillionth) {
-  Camera camera = brownCamera(2048, 1024, 3100.0, -0.12);
-  EXPECT_LT(deviationOf(camera).ray, 1e-9);
-  EXPECT_EQ(deviationOf(camera).disagreements, 0);
-  EXPECT_LT(deviationOf(brownCamera(1024, 777, 900.0, -0.28)).ray, 3e-8);
-}
-
-TEST(RayGrid, WideFieldsWithinAHundredThousandthOfAPixel) {
-  const Deviation worst = deviationOf(fisheyeCamera(1000, 800, 330.0));
-  EXPECT_LT(worst.pixel_px, 3e-5);
-  EXPECT_EQ(worst.disagreements, 0);
-}
-
-TEST(RayGrid, PixelsOutsideTheValidFieldAreMarked) {
-  Camera camera = brownCamera(400, 300, 180.0, -0.35);
-  const Deviation worst = deviationOf(camera);
-  EXPECT_EQ(worst.disagreements, 0);
-  EXPECT_LT(worst.pixel_px, 3e-5);
-}
-
-TEST(RayGrid, UnpreparedCameraOrSmallArena_IsRefused) {
-  Arena arena;
-  RayGrid grid;
-  EXPECT_EQ(RayGrid::create(Camera(), arena, grid), Status::kInvalidCamera);
-  Camera camera = brownCamera(400, 300, 180.0, -0.1);
-  std::vector<std::byte> memory(1000);
-  Arena small(memory);
-  EXPECT_EQ(RayGrid::create(camera, small, grid), Status::kArenaTooSmall);
 }
 
 TEST(RayGrid, UsesExactlyTheCountedBytes) {
   const Camera camera = brownCamera(400, 300, 380.0, -0.1);
   Arena counting;
   RayGrid grid;
+  EXPECT_EQ(RayGrid::create(Camera(), counting, grid), Status::kInvalidCamera);
   EXPECT_EQ(RayGrid::create(camera, counting, grid), Status::kOk);
   std::vector<std::byte> memory(counting.used());
   Arena arena(memory);
   EXPECT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
+  Arena small(std::span<std::byte>(memory).first(1000));
+  EXPECT_EQ(RayGrid::create(camera, small, grid), Status::kArenaTooSmall);
 }
 
 /// Equidistant fisheye.
 Camera equidistantCamera(int size, double focal_px) {
-  Camera camera = fisheyeCamera(size, size, focal_px);
-  camera.distortion = {};
-  EXPECT_EQ(prepareCamera(camera), Status::kOk);
-  return camera;
+  return fisheyeCamera(size, size, focal_px, {});
 }
 
 /// How far the image of the straight line between two pixels' rays is from their chord, px.
@@ -121,10 +102,7 @@ TEST(RayGrid, LinesBendByNoMoreThanItsBound) {
       skewMirroredCamera(500, 400, 400.0), pupilCamera(512, 384, 230.0, 0.01)};
   Random random(17);
   for (const Camera& camera : cameras) {
-    std::vector<std::byte> memory(std::size_t{8} << 20);
-    Arena arena(memory);
-    RayGrid grid;
-    ASSERT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
+    const RayGrid grid = gridOf(camera);
     for (int i = 0; i < 3000; ++i) {
       const Eigen::Vector2d a(random.uniform() * camera.width, random.uniform() * camera.height);
       const double length_px = random.uniform(2.0, 40.0);
@@ -141,10 +119,7 @@ TEST(RayGrid, LinesBendByNoMoreThanItsBound) {
 /// The great circles that an equidistant camera shows bend by less than 1 / f wherever they are.
 TEST(RayGrid, ItsBoundOnBendsIsNoLargerAtNinetyDegrees) {
   for (const double focal_px : {200.0, 220.0, 227.0, 240.0, 260.0, 400.0}) {
-    std::vector<std::byte> memory(std::size_t{8} << 20);
-    Arena arena(memory);
-    RayGrid grid;
-    ASSERT_EQ(RayGrid::create(equidistantCamera(512, focal_px), arena, grid), Status::kOk);
+    const RayGrid grid = gridOf(equidistantCamera(512, focal_px));
     EXPECT_LT(grid.lineBend_per_px(), 3.0 / focal_px) << focal_px;
     EXPECT_GT(grid.lineBend_per_px(), 0.3 / focal_px) << focal_px;
   }
@@ -152,10 +127,7 @@ TEST(RayGrid, ItsBoundOnBendsIsNoLargerAtNinetyDegrees) {
 
 TEST(RayGrid, RangesHoldEveryPixelAndNotAllBeyondNinetyDegrees) {
   const Camera camera = equidistantCamera(512, 220.0);  // without rays in the corners
-  std::vector<std::byte> memory(std::size_t{8} << 20);
-  Arena arena(memory);
-  RayGrid grid;
-  ASSERT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
+  const RayGrid grid = gridOf(camera);
   ASSERT_FALSE(grid.smooth());
   Random random(18);
   for (int i = 0; i < 200; ++i) {

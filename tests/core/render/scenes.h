@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,27 +37,59 @@ struct SceneMesh {
   /// An open tube about the y axis through `centre`, with `facets` sides and, with caps, closed.
   void addCylinder(const Eigen::Vector3d& centre, double radius, double half_height, int facets,
                    bool caps, int part = 0);
+  /// A closed ball of rings about the y axis, outward faces. The radius of each vertex deviates at
+  /// random, by a share of `bumps`.
+  void addBall(const Eigen::Vector3d& centre, double radius, int rings, int around,
+               double bumps = 0.0, std::uint64_t seed = 1, int part = 0);
+  /// Two triangles in each cell of a grid of vertices that begins at `first`, row by row; cut along
+  /// alternating diagonals.
+  void addGridFaces(int first, int columns, int rows);
+  Corners corners(const Face& face) const;
+  /// The same faces, each with vertices of its own.
+  SceneMesh loose() const;
 };
+
+/// Boxes, some of them not matched, and a cylinder; many `facets` make the mesh large.
+SceneMesh scattered(std::uint64_t seed, int facets = 64);
 
 Camera pinholeCamera(int width, int height, double focal_px);
 /// Brown-Conrady with 5 coefficients; k1 = -0.28 is a strong barrel.
 Camera brownCamera(int width, int height, double focal_px, double k1);
-Camera fisheyeCamera(int width, int height, double focal_px);
+Camera fisheyeCamera(int width, int height, double focal_px,
+                     const std::array<double, 8>& distortion = {0.02, -0.01, 0.003, -0.0005});
 /// CAHVOR: image axes not square to each other, y up the image, the optical axis not along z.
 Camera skewMirroredCamera(int width, int height, double focal_px);
 /// CAHVORE: fisheye with an entrance pupil that moves; `entrance_m` is e0.
 Camera pupilCamera(int width, int height, double focal_px, double entrance_m);
 
-/// A render with all its memory.
+Pose poseOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m);
+/// Sees all of scattered().
+inline const Pose kAhead = poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5});
+
+/// A renderer of a mesh, which must outlive it, with all its memory and output.
 struct Rendered {
-  std::vector<std::byte> memory;
+  static constexpr std::size_t kBytes = std::size_t{96} << 20;
+  /// Not initialized: memory that is not used takes no time.
+  std::unique_ptr<std::byte[]> memory = std::make_unique_for_overwrite<std::byte[]>(kBytes);
+  Arena arena{{memory.get(), kBytes}};
   MeshAdjacency adjacency;
+  RayGrid rays;
+  EdgeRenderer renderer;
   EdgeRender edges;
   std::vector<float> depth_m;
   std::vector<std::int32_t> face;
   std::vector<std::uint8_t> intensity;
   std::vector<Eigen::Vector3f> normal;
   int steps = 0;
+
+  Rendered(const SceneMesh& mesh, const Camera& camera, const RenderOptions& options = {},
+           int band_rows = EdgeRenderer::kBandRows, int workers = 1);
+  /// Begins a render of edges and surfaces.
+  Status begin(const Pose& camera_from_station) {
+    return renderer.begin(rays, camera_from_station, edges, {depth_m, face, intensity, normal});
+  }
+  /// Steps to the end of the render: the status of the last step.
+  Status finish();
 
   float depthAt(int x, int y) const { return depth_m[at(x, y)]; }
   std::int32_t faceAt(int x, int y) const { return face[at(x, y)]; }
@@ -78,9 +111,13 @@ inline std::vector<EdgePixel> pixelsOf(const EdgeRender& edges) {
   return pixels;
 }
 
-/// Expects two renders to agree in every bit of edges, mask and edge pixels.
-void expectEqual(const EdgeRender& a, const EdgeRender& b);
+inline int edgesInRow(const EdgeRender& edges, int y) {
+  const auto row = static_cast<std::size_t>(y);
+  return edges.row_begin[row + 1] - edges.row_begin[row];
+}
 
-Pose poseOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m);
+/// Expects two renders to agree in every bit of edges, mask and edge pixels; `complete`: neither
+/// ended with a fault, after which the rest of row_begin is not set.
+void expectEqual(const EdgeRender& a, const EdgeRender& b, bool complete = true);
 
 }  // namespace boresight::testing

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random_pose.h"
+
 namespace boresight {
 namespace {
 
@@ -23,33 +25,14 @@ struct Plate {
   std::vector<std::uint16_t> part_of_face = {0, 0};
   std::vector<ScenePart> parts = std::vector<ScenePart>(1);
 
-  explicit Plate(const std::array<int, 4>& order) {
-    const std::array<Eigen::Vector3f, 4> corner = {{{-0.05F, -0.04F, 0.3F},
-                                                    {0.05F, -0.04F, 0.3F},
-                                                    {0.05F, 0.04F, 0.3F},
-                                                    {-0.05F, 0.04F, 0.3F}}};
-    vertices.resize(4);
-    std::array<std::int32_t, 4> index{};
-    for (std::size_t i = 0; i < 4; ++i) {
-      vertices[static_cast<std::size_t>(order[i])] = corner[i];
-      index[i] = order[i];
-    }
-    faces = {Face{{index[0], index[1], index[2]}}, Face{{index[0], index[2], index[3]}}};
+  explicit Plate(const std::array<int, 4>& order) : vertices(4) {
+    const Eigen::Vector2f corner[] = {
+        {-0.05F, -0.04F}, {0.05F, -0.04F}, {0.05F, 0.04F}, {-0.05F, 0.04F}};
+    for (std::size_t i = 0; i < 4; ++i)
+      vertices[static_cast<std::size_t>(order[i])] << corner[i], 0.3F;
+    faces = {{{order[0], order[1], order[2]}}, {{order[0], order[2], order[3]}}};
   }
 };
-
-Camera distortedCamera() {
-  Camera camera;
-  camera.model = CameraModel::kBrownConrady;
-  camera.width = kWidth;
-  camera.height = kHeight;
-  camera.fx = camera.fy = 500.0;
-  camera.cx = 0.5 * (kWidth - 1);
-  camera.cy = 0.5 * (kHeight - 1);
-  camera.distortion[0] = -0.2;
-  EXPECT_EQ(prepareCamera(camera), Status::kOk);
-  return camera;
-}
 
 /// A ramp of 1.5 per px where the plate is shown: the mean of an area is the value in its middle.
 double rampAt(double px) { return std::clamp(1.5 * (px - 190.0), 0.0, 255.0); }
@@ -70,21 +53,12 @@ struct View {
       for (int x = 0; x < kWidth; ++x)
         gray[static_cast<std::size_t>(y * kWidth + x)] =
             static_cast<std::uint8_t>(rampAt(x, y, down) + 0.5);
-    problem.image.data = gray.data();
-    problem.image.width = kWidth;
-    problem.image.stride = kWidth;
-    problem.image.height = kHeight;
-    problem.camera = distortedCamera();
-    problem.mesh.vertices_in_station_m = plate.vertices;
-    problem.mesh.faces = plate.faces;
-    problem.mesh.part_of_face = plate.part_of_face;
-    problem.mesh.parts = plate.parts;
+    problem.image = {gray.data(), kWidth, kHeight, kWidth};
+    problem.camera = test::makeCamera(CameraModel::kBrownConrady, kWidth, kHeight, 500.0, {-0.2});
+    problem.mesh = {plate.vertices, plate.faces, plate.part_of_face, plate.parts};
     problem.scene = matchedBounds(problem.mesh);
     problem.camera_from_station_seed.translation_m.x() = away_m;
-    ViewSize size;
-    size.span_px = span_px;
-    size.margin_px = 12.0;
-    size.most_px = 300;
+    const ViewSize size{.span_px = span_px, .margin_px = 12.0, .most_px = 300};
     EXPECT_TRUE(faceScene(problem, problem.camera_from_station_seed, size, view));
   }
   View(const View&) = delete;

@@ -10,6 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/geometry/pose.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight {
 namespace {
@@ -30,8 +31,7 @@ double angleBetween(const Eigen::Quaterniond& first, const Eigen::Quaterniond& s
 }
 
 Eigen::Vector3d inBox(const Eigen::Vector3d& half, Random& random) {
-  return {random.uniform(-1.0, 1.0) * half.x(), random.uniform(-1.0, 1.0) * half.y(),
-          random.uniform(-1.0, 1.0) * half.z()};
+  return half.cwiseProduct(test::randomVector(random, 1.0));
 }
 
 RotationGrid::Range rangeOf(const Eigen::Vector3d& box_deg, Random& random) {
@@ -107,9 +107,7 @@ Eigen::Vector3d reachOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector
   const double angle2 = rotation_rad.squaredNorm();
   const double half = 0.5 * std::sqrt(angle2);
   Eigen::Matrix3d cross;
-  cross << 0.0, -rotation_rad.z(), rotation_rad.y(),  //
-      rotation_rad.z(), 0.0, -rotation_rad.x(),       //
-      -rotation_rad.y(), rotation_rad.x(), 0.0;
+  for (int k = 0; k < 3; ++k) cross.col(k) = rotation_rad.cross(Eigen::Vector3d::Unit(k));
   const Eigen::Matrix3d slope = Eigen::Matrix3d::Identity() - 0.5 * cross +
                                 (1.0 - half / std::tan(half)) / angle2 * (cross * cross);
   return box_rad + slope.cwiseAbs() * slack_rad;

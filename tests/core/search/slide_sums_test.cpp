@@ -10,7 +10,8 @@
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/search/compass_search.h"
-#include "tests/core/localizer/scene.h"
+#include "tests/core/search/search_scene.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight {
 namespace {
@@ -57,16 +58,20 @@ struct Maps {
 TEST(SlideSums, RandomPlaces_HaveThePlainSums) {
   Random random(1);
   for (int round = 0; round < 20; ++round) {
-    const int width = 30 + static_cast<int>(random.below(90));
-    const int height = 30 + static_cast<int>(random.below(90));
-    const int slide_x = static_cast<int>(random.below(15));
-    const int slide_y = static_cast<int>(random.below(15));
+    const bool largest = round == 0;
+    const int side = SlideSums::kMaxView_px;
+    const int width = largest ? side : 30 + static_cast<int>(random.below(90));
+    const int height = largest ? side : 30 + static_cast<int>(random.below(90));
+    const int slide_x = largest ? side / 2 : static_cast<int>(random.below(15));
+    const int slide_y = largest ? side / 2 : static_cast<int>(random.below(15));
     Maps maps(width, height, slide_x, slide_y, random);
     std::vector<SlideSums::Place> places(1 + random.below(SlideSums::kMaxPlaces));
     for (SlideSums::Place& place : places) {
       // Some of them leave the view by less than the border is wide.
-      place.x = static_cast<std::int16_t>(static_cast<int>(random.below(width)) - width / 2);
-      place.y = static_cast<std::int16_t>(static_cast<int>(random.below(height)) - height / 2);
+      const int reach_x = largest ? 10 : width;
+      const int reach_y = largest ? 10 : height;
+      place.x = static_cast<std::int16_t>(static_cast<int>(random.below(reach_x)) - reach_x / 2);
+      place.y = static_cast<std::int16_t>(static_cast<int>(random.below(reach_y)) - reach_y / 2);
       place.direction = static_cast<std::uint8_t>(random.below(kEdgeDirections));
     }
     maps.sums.add(places);
@@ -112,17 +117,10 @@ TEST(SlideSums, DistanceOfAPlace_IsThatOfItsPixel) {
 /// Edges of the render at the truth; the descent starts from renders of nearby poses.
 TEST(CompassSearch, GridPosesAroundTheTruth_ConvergeToTheTruth) {
   const test::Solid solid = test::stationMesh();
-  Camera camera = test::pinholeCamera();
-  camera.width = camera.height = 101;
-  camera.fx = camera.fy = 130.0;
-  camera.cx = camera.cy = 50.0;
-  ASSERT_EQ(prepareCamera(camera), Status::kOk);
+  const Camera camera = test::makePinhole(101, 101, 130.0);
   const Pose truth = test::truthPose();
   const test::Rendering seen = test::renderEdges(solid, camera, truth);
-  std::vector<std::uint8_t> direction(101 * 101, DirectedEdges::kNone);
-  for (const EdgePixel& pixel : seen.edges.eachPixel())
-    direction[static_cast<std::size_t>(pixel.y * 101 + pixel.x)] =
-        static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
+  std::vector<std::uint8_t> direction = test::directionsOf(seen.edges, 101, 101);
   DirectedEdges edges;
   edges.direction = direction;
   edges.width = edges.height = 101;
@@ -140,10 +138,10 @@ TEST(CompassSearch, GridPosesAroundTheTruth_ConvergeToTheTruth) {
   double sum_after_px = 0.0;
   for (int i = 0; i < 20; ++i) {
     Vector6d offset;
-    for (int k = 0; k < 3; ++k) offset[k] = random.uniform(-1.0, 1.0) * 6.0 * kDegree_rad;
-    offset[3] = random.uniform(-1.0, 1.0) * pivot_m.z() / camera.fx;
-    offset[4] = random.uniform(-1.0, 1.0) * pivot_m.z() / camera.fx;
-    offset[5] = random.uniform(-1.0, 1.0) * 0.04 * pivot_m.z();
+    offset.head<3>() = test::randomVector(random, 6.0 * kDegree_rad);
+    offset.tail<3>() =
+        pivot_m.z() *
+        test::randomVector(random, 1.0).cwiseQuotient(Eigen::Vector3d(camera.fx, camera.fx, 25.0));
     Pose pose = displacedAboutPivot(truth, offset, pivot_m);
     const test::Rendering render = test::renderEdges(solid, camera, pose);
     CompassSearch search;

@@ -9,11 +9,13 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/base/random.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight {
 namespace {
@@ -33,12 +35,7 @@ class DrawnRender {
     RenderOptions options;
     options.max_edge_pixels = 40000;
     render = createEdgeRender(width, height, options, arena_);
-    render.camera.width = width;
-    render.camera.height = height;
-    render.camera.fx = render.camera.fy = 500.0;
-    render.camera.cx = 0.5 * width;
-    render.camera.cy = 0.5 * height;
-    EXPECT_EQ(prepareCamera(render.camera), Status::kOk);
+    render.camera = test::makePinhole(width, height, 500.0);
     render.camera_from_station.translation_m = {0.1, -0.2, 0.3};
     render.edges.width = render.mask.width = width;
     render.edges.height = render.mask.height = height;
@@ -96,6 +93,9 @@ class Selector {
                 int level = 0) {
     return selector_.select(render, side_px, ignore, level, set);
   }
+  std::span<const Template> chosen() const {
+    return set.templates.first(static_cast<std::size_t>(set.count));
+  }
   TemplateSet set;
 
  private:
@@ -112,12 +112,14 @@ TEST(TemplateSelector, PrefersCornersToStraightEdges) {
   Selector selector(options);
   EXPECT_EQ(selector.select(drawn.render, 32), Status::kTooFewTemplates);
   ASSERT_EQ(selector.set.count, 4);
-  for (int i = 0; i < 4; ++i) {
-    const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
+  for (const Template& item : selector.chosen()) {
     const int to_corner_x = std::min(std::abs(item.center_x - 100), std::abs(item.center_x - 400));
     const int to_corner_y = std::min(std::abs(item.center_y - 100), std::abs(item.center_y - 400));
     EXPECT_LE(std::max(to_corner_x, to_corner_y), 20) << item.center_x << "," << item.center_y;
   }
+  drawn.set({});
+  EXPECT_EQ(selector.select(drawn.render, 64), Status::kTooFewTemplates);
+  EXPECT_EQ(selector.set.count, 0) << "without edges";
 }
 
 /// The selection by its definition, pixel by pixel: no sums, no bisection.
@@ -125,37 +127,40 @@ class PlainSelection {
  public:
   PlainSelection(const EdgeRender& render, int side_px, const BitImage* ignore, int level)
       : render_(render), side_px_(side_px) {
-    for (const EdgePixel& pixel : render.eachPixel()) {
-      all_.push_back(pixel);
+    for (const EdgePixel& pixel : render.eachPixel()) all_.push_back(pixel);
+    for (const EdgePixel& pixel : all_) {
       if (!inside(pixel)) continue;
-      inside_.push_back(pixel);
-      allowed_.push_back(ignoredShare(pixel, ignore, level) <= 0.3);
+      inside_.push_back({pixel, ignoredShare(pixel, ignore, level) <= 0.3, distinctness(pixel)});
     }
-    for (const EdgePixel& pixel : inside_) distinctness_.push_back(distinctness(pixel));
   }
 
   /// Number of cells with a pixel whose square lies in the image.
   int occupied(int cell_px) const {
     std::set<Cell> cells;
-    for (const EdgePixel& pixel : inside_) cells.insert(cellOf(pixel, cell_px));
+    for (const Candidate& candidate : inside_) cells.insert(cellOf(candidate.pixel, cell_px));
     return static_cast<int>(cells.size());
   }
 
   /// x, y and distinctness of the chosen pixels, row by row of cells.
   std::vector<std::tuple<int, int, float>> chosen(int cell_px) const {
-    std::map<Cell, std::size_t> best;
-    for (std::size_t i = 0; i < inside_.size(); ++i) {
-      if (!allowed_[i] || distinctness_[i] < 0.0F) continue;
-      const auto [place, is_new] = best.try_emplace(cellOf(inside_[i], cell_px), i);
-      if (!is_new && distinctness_[i] > distinctness_[place->second]) place->second = i;
+    std::map<Cell, const Candidate*> best;
+    for (const Candidate& candidate : inside_) {
+      if (!candidate.allowed || candidate.distinctness < 0.0F) continue;
+      const Candidate*& kept = best[cellOf(candidate.pixel, cell_px)];
+      if (kept == nullptr || candidate.distinctness > kept->distinctness) kept = &candidate;
     }
     std::vector<std::tuple<int, int, float>> list;
-    for (const auto& [cell, i] : best)
-      list.emplace_back(inside_[i].x, inside_[i].y, distinctness_[i]);
+    for (const auto& [cell, kept] : best)
+      list.emplace_back(kept->pixel.x, kept->pixel.y, kept->distinctness);
     return list;
   }
 
  private:
+  struct Candidate {
+    EdgePixel pixel;
+    bool allowed;
+    float distinctness;
+  };
   using Cell = std::pair<int, int>;  ///< row, column
   static Cell cellOf(const EdgePixel& pixel, int cell_px) {
     return {pixel.y / cell_px, pixel.x / cell_px};
@@ -199,9 +204,7 @@ class PlainSelection {
   const EdgeRender& render_;
   int side_px_;
   std::vector<EdgePixel> all_;
-  std::vector<EdgePixel> inside_;
-  std::vector<bool> allowed_;
-  std::vector<float> distinctness_;
+  std::vector<Candidate> inside_;
 };
 
 /// Pixels with random normals, scattered and in lumps.
@@ -234,9 +237,9 @@ void ignoreRectangles(BitImage& ignore, Random& random) {
 
 /// Whether the templates are those of `plain` for a cell size that is small enough, while the next
 /// smaller one is not.
-bool isSelectionOf(const PlainSelection& plain, const TemplateSet& set, int most, int longest) {
+bool isSelectionOf(const PlainSelection& plain, const Selector& selector, int most, int longest) {
   std::vector<std::tuple<int, int, float>> selected;
-  for (const Template& item : set.templates.first(static_cast<std::size_t>(set.count)))
+  for (const Template& item : selector.chosen())
     selected.emplace_back(item.center_x, item.center_y, item.distinctness);
   const int least = std::max(2, (longest + 255) / 256);
   for (int cell_px = least; cell_px <= longest; ++cell_px)
@@ -269,14 +272,13 @@ TEST(TemplateSelector, RandomRenders_SelectionIsThatOfThePlainDefinition) {
     const Status status = selector.select(drawn.render, side_px, mask, level);
     EXPECT_EQ(status, selector.set.count < 6 ? Status::kTooFewTemplates : Status::kOk);
     EXPECT_EQ(selector.set.side_px, side_px);
-    EXPECT_TRUE(isSelectionOf(PlainSelection(drawn.render, side_px, mask, level), selector.set,
+    EXPECT_TRUE(isSelectionOf(PlainSelection(drawn.render, side_px, mask, level), selector,
                               options.count, width))
         << "trial " << trial << ", side " << side_px << " px";
-    for (int i = 0; i < selector.set.count; ++i) {
-      const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
+    for (const Template& item : selector.chosen()) {
       EXPECT_EQ(item.depth_m, depthAt(item.center_x, item.center_y));
-      const Eigen::Vector3d ray((item.center_x - 0.5 * width) / 500.0,
-                                (item.center_y - 0.5 * height) / 500.0, 1.0);
+      const Eigen::Vector3d ray((item.center_x - 0.5 * (width - 1)) / 500.0,
+                                (item.center_y - 0.5 * (height - 1)) / 500.0, 1.0);
       const Eigen::Vector3d point_m = item.depth_m * ray - Eigen::Vector3d(0.1, -0.2, 0.3);
       EXPECT_LT((item.point_in_station_m - point_m).norm(), 1e-9);
     }
@@ -298,51 +300,44 @@ TEST(TemplateSelector, InvalidOptionsAndTooLittleMemory_AreRefused) {
   EXPECT_EQ(selector.create(512, 512, TemplateOptions(), small), Status::kArenaTooSmall);
 }
 
-TEST(TemplateSelector, TooFewTemplates_AreReported) {
-  DrawnRender drawn(512, 512);
-  drawn.set({});
-  Selector selector(TemplateOptions{});
-  EXPECT_EQ(selector.select(drawn.render, 64), Status::kTooFewTemplates);
-  EXPECT_EQ(selector.set.count, 0);
-}
-
 TEST(TemplateSide, IsThePowerOfTwoNearestToTheProjectedFeature) {
   Camera camera;
   camera.width = camera.height = 2048;
   camera.fx = camera.fy = 3000.0;
   TemplateOptions options;
   options.size_factor = 1.0;
-  EXPECT_EQ(templateSide(options, 0.0128, 0.3, camera, 1.0), 128);
-  EXPECT_EQ(templateSide(options, 0.0128 * 1.40, 0.3, camera, 1.0), 128);
-  EXPECT_EQ(templateSide(options, 0.0128 * 1.43, 0.3, camera, 1.0), 256);
-  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera, 1.0), TemplateSelector::kMinSide_px);
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), TemplateSelector::kMaxSide_px);
-  EXPECT_EQ(templateSide(options, 0.0128, 0.0, camera, 1.0), TemplateSelector::kMaxSide_px);
+  double factor = 1.0;
+  const auto side = [&](double feature_m, double depth_m = 0.3) {
+    return templateSide(options, feature_m, depth_m, camera, factor);
+  };
+  EXPECT_EQ(side(0.0128), 128);
+  EXPECT_EQ(side(0.0128 * 1.40), 128);
+  EXPECT_EQ(side(0.0128 * 1.43), 256);
+  EXPECT_EQ(side(0.0001), TemplateSelector::kMinSide_px);
+  EXPECT_EQ(side(1.0), TemplateSelector::kMaxSide_px);
+  EXPECT_EQ(side(0.0128, 0.0), TemplateSelector::kMaxSide_px);
   options.size_factor = 2.0;
-  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera, 1.0), 128);
+  EXPECT_EQ(side(0.0064), 128);
   // The focal length is the mean of both, whatever the sign of the second.
   camera.fx = 5000.0;
   camera.fy = -1000.0;
-  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera, 1.0), 128);
+  EXPECT_EQ(side(0.0064), 128);
   // At most a quarter of the image's smaller side.
-  camera.height = 256;
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), 64);
-  camera.height = 255;
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), 32);
-  camera.height = 40;
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), 8);
-}
-
-TEST(TemplateSide, FurtherAttempt_IsNotHeldByTheLeastSideButByTheLargestOne) {
-  Camera camera;
+  for (const auto& [height, largest] : {std::pair{256, 64}, {255, 32}, {40, 8}}) {
+    camera.height = height;
+    EXPECT_EQ(side(1.0), largest) << height;
+  }
+  // A further attempt is not held by the least side but by the largest one.
   camera.width = camera.height = 512;
   camera.fx = camera.fy = 750.0;
-  const TemplateOptions options;
-  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera, 0.5), 32);
-  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera, 2.0), 128);
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 2.0), 128) << "a quarter of the image";
+  options = TemplateOptions();
+  factor = 0.5;
+  EXPECT_EQ(side(0.0001), 32);
+  factor = 2.0;
+  EXPECT_EQ(side(0.0001), 128);
+  EXPECT_EQ(side(1.0), 128) << "a quarter of the image";
   camera.height = 500;
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 2.0), 64);
+  EXPECT_EQ(side(1.0), 64);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "core/views/views_localizer.h"
 #include "tests/core/localizer/rail_scene.h"
 #include "tests/core/localizer/scene.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight::test {
 namespace {
@@ -53,55 +54,70 @@ View viewOf(const Case& scene) {
 
 Pose secondFromRig() { return {rotationExp({0.02, -0.2, 0.03}), {0.09, 0.005, 0.01}}; }
 
-/// The station's pose in a camera next to the first one.
-View secondView(const Case& scene) {
-  static const Picture picture =
-      takePicture(stationMesh(), pinholeCamera(), secondFromRig() * truthPose());
+View secondViewOf(const Case& scene, const Picture& picture) {
   return {picture.view(), nullptr, scene.camera, {}, secondFromRig()};
 }
 
-void expectSamePose(const Pose& first, const Pose& second) {
-  EXPECT_EQ(first.rotation.coeffs(), second.rotation.coeffs());
-  EXPECT_EQ(first.translation_m, second.translation_m);
+/// The station in a camera next to the first one.
+const Picture& secondPicture() {
+  static const Picture picture =
+      takePicture(stationMesh(), pinholeCamera(), secondFromRig() * truthPose());
+  return picture;
+}
+
+View secondView(const Case& scene) { return secondViewOf(scene, secondPicture()); }
+
+View withImage(View view, const Picture& picture) {
+  view.image = picture.view();
+  return view;
+}
+
+ViewsResult resultOf(const Case& scene, std::vector<View> views, const LocalizerOptions& options) {
+  return ViewsRun(scene, std::move(views), options).finish();
+}
+
+/// Converges within `limit_m` of the truth; whether each of two views takes part in the pose.
+ViewsResult expectTruthOf(const Case& scene, const std::vector<View>& views,
+                          const LocalizerOptions& options, std::array<bool, 2> takes_part,
+                          double limit_m) {
+  const ViewsResult result = resultOf(scene, views, options);
+  EXPECT_STREQ(localizationStatusText(result.status), "converged");
+  for (std::size_t v = 0; v < 2; ++v) EXPECT_EQ(result.views[v].tookPart(), takes_part[v]) << v;
+  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, limit_m);
+  return result;
 }
 
 std::vector<LocalizerOptions> profiles() {
-  LocalizerOptions matched = defaultProfile();
-  matched.refinement.enabled = false;
-  LocalizerOptions one_match = defaultProfile();
-  one_match.loop.match_iterations = 1;
-  one_match.loop.enough_inliers = 2.0;
-  LocalizerOptions refused = defaultProfile();
-  refused.support.min_support = 1.0;
-  LocalizerOptions few = defaultProfile();
-  few.pnp.min_inliers = 10000;
-  std::vector<LocalizerOptions> all = {defaultProfile(), paperProfile(), matched,
-                                       one_match,        refused,        few};
-  for (LocalizerOptions& each : all) each.search.enabled = false;  // views start from their seed
+  std::vector<LocalizerOptions> all(5, withoutSearch());
+  all[1].refinement.enabled = false;
+  all[2].loop.match_iterations = 1;
+  all[2].loop.enough_inliers = 2.0;
+  all[3].support.min_support = 1.0;
+  all[4].pnp.min_inliers = 10000;
+  all.push_back(paperProfile());
   return all;
 }
 
 void expectBitsOfThePlainLocalizer(const Case& scene, const LocalizerOptions& options) {
-  OwnedRun plain(scene.problem(), options);
-  plain.finish();
-  const Workspace& expected = plain.localizer.workspace();
+  const FinishedRun plain(scene, options);
+  const Workspace& expected = plain.workspace;
   ViewsRun run(scene, {viewOf(scene)}, options);
   const ViewsResult& result = run.finish();
   EXPECT_EQ(result.status, expected.status);
   EXPECT_EQ(result.iterations, expected.iterations);
   EXPECT_EQ(result.attempts, expected.attempts);
-  expectSamePose(result.rig_from_station, expected.camera_from_station);
+  EXPECT_EQ(result.rig_from_station, expected.camera_from_station);
   EXPECT_EQ(result.covariance, expected.covariance);
   EXPECT_STREQ(hexText(run.localizer->view(0).digest().digest()).data(),
                hexText(plain.localizer.digest()).data());
 }
 
 TEST(ViewsLocalizer, SingleView_GivesTheBitsOfTheLocalizer) {
-  for (int i = 0; i < static_cast<int>(profiles().size()); ++i) {
-    const LocalizerOptions options = profiles()[static_cast<std::size_t>(i)];
+  const std::vector<LocalizerOptions> all = profiles();
+  for (std::size_t i = 0; i < all.size(); ++i) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
       SCOPED_TRACE(testing::Message() << "options " << i << ", seed " << seed);
-      expectBitsOfThePlainLocalizer(stationCase(seed, seed == 2), options);
+      expectBitsOfThePlainLocalizer(stationCase(seed, seed == 2), all[i]);
     }
   }
   Case faint = stationCase(1);
@@ -112,10 +128,8 @@ TEST(ViewsLocalizer, SingleView_GivesTheBitsOfTheLocalizer) {
 
 TEST(ViewsLocalizer, TheSameViewTwiceGivesThePoseWithHalfTheCovariance) {
   const Case scene = stationCase(1);
-  ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
-  ViewsRun twice(scene, {viewOf(scene), viewOf(scene)}, defaultProfile());
-  const ViewsResult& single = alone.finish();
-  const ViewsResult& two = twice.finish();
+  const ViewsResult single = resultOf(scene, {viewOf(scene)}, defaultProfile());
+  const ViewsResult two = resultOf(scene, {viewOf(scene), viewOf(scene)}, defaultProfile());
   ASSERT_EQ(two.status, LocalizationStatus::kConverged);
   const Vector6d difference = perturbationBetween(single.rig_from_station, two.rig_from_station);
   for (int i = 0; i < 6; ++i) {
@@ -131,12 +145,9 @@ TEST(ViewsLocalizer, ANoisySecondView_DoesNotMakeTheCovarianceLarger) {
   std::normal_distribution<double> noise(0.0, 25.0);
   for (std::uint8_t& gray : noisy.gray)
     gray = static_cast<std::uint8_t>(std::clamp(gray + noise(random), 0.0, 255.0));
-  View second = viewOf(scene);
-  second.image = noisy.view();
-  ViewsRun alone(scene, {viewOf(scene)}, withoutSearch());
-  ViewsRun both(scene, {viewOf(scene), second}, withoutSearch());
-  const ViewsResult& single = alone.finish();
-  const ViewsResult& two = both.finish();
+  const View first = viewOf(scene);
+  const ViewsResult single = resultOf(scene, {first}, withoutSearch());
+  const ViewsResult two = resultOf(scene, {first, withImage(first, noisy)}, withoutSearch());
   ASSERT_EQ(two.status, LocalizationStatus::kConverged);
   ASSERT_GT(two.views[1].edges_used, 0);
   for (int i = 0; i < 6; ++i) EXPECT_LT(two.covariance(i, i), 1.02 * single.covariance(i, i));
@@ -145,28 +156,17 @@ TEST(ViewsLocalizer, ANoisySecondView_DoesNotMakeTheCovarianceLarger) {
 TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const Case scene = stationCase(seed);
-    ViewsRun run(scene, {viewOf(scene), secondView(scene)}, withoutSearch());
-    const ViewsResult& result = run.finish();
-    ASSERT_EQ(result.status, LocalizationStatus::kConverged);
-    EXPECT_TRUE(result.views[0].tookPart());
-    EXPECT_TRUE(result.views[1].tookPart());
+    const ViewsResult result = expectTruthOf(scene, {viewOf(scene), secondView(scene)},
+                                             withoutSearch(), {true, true}, 0.0002);
     EXPECT_GT(result.views[1].inliers, 20);
-    const PoseError error = poseError(scene.solid, scene.truth, result.rig_from_station);
-    EXPECT_LT(error.centre_m, 0.0002);
-    EXPECT_LT(error.angle_rad, 0.002);
+    EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).angle_rad, 0.002);
   }
 }
 
 TEST(ViewsLocalizer, PixelThatChangesInAnyView_EndsTheRunAsAFault) {
   const Case scene = stationCase(1);
-  Picture second;
-  const View view = secondView(scene);
-  second.width = view.image.width;
-  second.height = view.image.height;
-  second.gray.assign(view.image.data, view.image.data + second.width * second.height);
-  View changing = view;
-  changing.image = second.view();
-  ViewsRun run(scene, {viewOf(scene), changing}, withoutSearch());
+  Picture second = secondPicture();
+  ViewsRun run(scene, {viewOf(scene), secondViewOf(scene, second)}, withoutSearch());
   (void)run.localizer->step();
   second.gray[1000] ^= 1;
   const ViewsResult& result = run.finish();
@@ -175,46 +175,36 @@ TEST(ViewsLocalizer, PixelThatChangesInAnyView_EndsTheRunAsAFault) {
 }
 
 TEST(ViewsLocalizer, BlackOrWhiteSecondView_GivesTheBitsOfTheFirstView) {
-  for (const int gray : {0, 255}) {
-    const Case scene = stationCase(3);
-    const Picture blank = flatPicture(512, 512, static_cast<std::uint8_t>(gray));
-    View second = secondView(scene);
-    second.image = blank.view();
-    ViewsRun alone(scene, {viewOf(scene)}, withoutSearch());
-    ViewsRun run(scene, {viewOf(scene), second}, withoutSearch());
-    const ViewsResult& expected = alone.finish();
-    const ViewsResult& result = run.finish();
+  const Case scene = stationCase(3);
+  const ViewsResult expected = resultOf(scene, {viewOf(scene)}, withoutSearch());
+  for (const std::uint8_t gray : {std::uint8_t{0}, std::uint8_t{255}}) {
+    const Picture blank = flatPicture(512, 512, gray);
+    const ViewsResult result =
+        resultOf(scene, {viewOf(scene), secondViewOf(scene, blank)}, withoutSearch());
     ASSERT_EQ(result.status, LocalizationStatus::kConverged);
-    expectSamePose(result.rig_from_station, expected.rig_from_station);
+    EXPECT_EQ(result.rig_from_station, expected.rig_from_station);
     EXPECT_EQ(result.covariance, expected.covariance);
     EXPECT_TRUE(result.views[0].tookPart());
     EXPECT_EQ(result.views[1].status, LocalizationStatus::kTooFewMatches);
   }
 }
 
-/// Two views converge on the truth without this one.
-void expectLeftOut(std::size_t left_out, const Case& scene, const std::vector<View>& views) {
-  ViewsRun run(scene, views, withoutSearch());
-  const ViewsResult& result = run.finish();
-  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
-  for (std::size_t v = 0; v < 2; ++v) EXPECT_EQ(result.views[v].tookPart(), v != left_out) << v;
-  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
-}
-
 TEST(ViewsLocalizer, BlackFirstView_LeavesThePoseToTheSecondView) {
-  const Case scene = stationCase(2);
   const Picture blank = flatPicture(512, 512, 0);
-  View first = viewOf(scene);
-  first.image = blank.view();
-  expectLeftOut(0, scene, {first, secondView(scene)});
+  const Case near = stationCase(2);
+  expectTruthOf(near, {withImage(viewOf(near), blank), secondView(near)}, withoutSearch(),
+                {false, true}, 0.0006);
+  Case turned = stationCase(3);
+  turnAboutTheCamera(turned, -100.0 * kDegree_rad);
+  expectTruthOf(turned, {withImage(viewOf(turned), blank), secondView(turned)}, defaultProfile(),
+                {false, true}, 0.0006);
 }
 
 TEST(ViewsLocalizer, ViewOfAnotherScene_IsLeftOut) {
   const Case scene = stationCase(4);
   const Picture noise = noisePicture(512, 512, 5);
-  View second = secondView(scene);
-  second.image = noise.view();
-  expectLeftOut(1, scene, {viewOf(scene), second});
+  expectTruthOf(scene, {viewOf(scene), secondViewOf(scene, noise)}, withoutSearch(), {true, false},
+                0.0006);
 }
 
 /// What is left of the second view agrees with the first, but supports the pose too little: it is
@@ -231,10 +221,7 @@ TEST(ViewsLocalizer, HalfCoveredView_IsDroppedByTheAcceptanceTestAndTheOtherConv
     for (int y = 0; y < 512; ++y)
       std::copy_n(whole.image.row(y) + covered, 512 - covered,
                   half.gray.begin() + 512 * y + covered);
-    View second = whole;
-    second.image = half.view();
-    ViewsRun run(scene, {viewOf(scene), second}, options);
-    const ViewsResult& result = run.finish();
+    const ViewsResult result = resultOf(scene, {viewOf(scene), withImage(whole, half)}, options);
     ASSERT_EQ(result.status, LocalizationStatus::kConverged);
     EXPECT_TRUE(result.views[0].tookPart());
     EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
@@ -243,64 +230,31 @@ TEST(ViewsLocalizer, HalfCoveredView_IsDroppedByTheAcceptanceTestAndTheOtherConv
     EXPECT_GT(result.views[1].inliers, 5);
     EXPECT_LT(result.views[1].support.share(), options.support.min_support);
     // By the first view's edges alone at the end: its covariance, not that of both.
-    ViewsRun both(scene, {viewOf(scene), whole}, options);
-    ViewsRun alone(scene, {viewOf(scene)}, options);
-    const double of_alone = alone.finish().covariance.trace();
-    const double of_both = both.finish().covariance.trace();
+    const double of_alone = resultOf(scene, {viewOf(scene)}, options).covariance.trace();
+    const double of_both = resultOf(scene, {viewOf(scene), whole}, options).covariance.trace();
     EXPECT_LT(std::abs(result.covariance.trace() - of_alone),
               std::abs(result.covariance.trace() - of_both));
   }
   EXPECT_GT(dropped, 0);
 }
 
-/// The seed turned about the first camera's axis, as its uncertainty says.
-Case turnedCase(double turn_deg) {
-  Case scene = stationCase(3);
-  const Eigen::Quaterniond turn = rotationExp({0.0, 0.0, turn_deg * kDegree_rad});
-  scene.seed.rotation = (turn * scene.truth.rotation).normalized();
-  scene.seed.translation_m = turn * scene.truth.translation_m;
-  scene.uncertainty.pivot_in_camera_m.setZero();
-  scene.uncertainty.rotation_rad.z() = kPi;
-  return scene;
-}
-
 TEST(ViewsLocalizer, TurnedSeed_IsFoundByTheSearchOfAllViews) {
-  const Case scene = turnedCase(130.0);
-  ViewsRun run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
-  const ViewsResult& result = run.finish();
-  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
-  EXPECT_TRUE(result.views[0].tookPart());
-  EXPECT_TRUE(result.views[1].tookPart());
+  Case scene = stationCase(3);
+  turnAboutTheCamera(scene, 130.0 * kDegree_rad);
+  const ViewsResult result = expectTruthOf(scene, {viewOf(scene), secondView(scene)},
+                                           defaultProfile(), {true, true}, 0.0002);
   EXPECT_GT(result.views[1].probability, 0.9);
-  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0002);
-}
-
-TEST(ViewsLocalizer, TurnedSeedBeforeABlackFirstView_IsFoundInTheSecond) {
-  const Case scene = turnedCase(-100.0);
-  const Picture blank = flatPicture(512, 512, 0);
-  View first = viewOf(scene);
-  first.image = blank.view();
-  ViewsRun run(scene, {first, secondView(scene)}, defaultProfile());
-  const ViewsResult& result = run.finish();
-  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
-  EXPECT_FALSE(result.views[0].tookPart());
-  EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
 }
 
 /// As with one view, whatever the probability says.
 TEST(ViewsLocalizer, MirroredMesh_IsRefused) {
   for (const std::uint64_t seed : {1U, 3U}) {
     Case scene = stationCase(seed);
-    const View first = viewOf(scene);
-    const View second = secondView(scene);  // of the mesh as it is
-    const auto twice_middle_m =
-        static_cast<float>(2.0 * matchedBounds(scene.solid.view()).centre().x());
-    for (Eigen::Vector3f& vertex : scene.solid.vertices) vertex.x() = twice_middle_m - vertex.x();
-    for (Face& face : scene.solid.faces) std::swap(face.vertex[1], face.vertex[2]);
+    scene.solid = mirroredSolid(scene.solid);  // the pictures show the mesh as it was
     LocalizerOptions options = defaultProfile();
     options.support.min_probability = 0.0;
-    ViewsRun run(scene, {first, second}, options);
-    EXPECT_NE(run.finish().status, LocalizationStatus::kConverged);
+    EXPECT_NE(resultOf(scene, {viewOf(scene), secondView(scene)}, options).status,
+              LocalizationStatus::kConverged);
   }
 }
 
@@ -317,16 +271,14 @@ TEST(ViewsLocalizer, PoseBeyondTheStatedUncertainty_IsComparedWithAWiderSearchIn
   }
 }
 
-/// A second picture of a rail.
-View secondRailView(const Case& scene, const Picture& picture) {
-  return {picture.view(), nullptr, scene.camera, {}, secondFromRig()};
+ViewsResult resultOfRail(const Case& rail) {
+  const Picture picture = takePicture(rail.solid, rail.camera, secondFromRig() * rail.truth);
+  return resultOf(rail, {viewOf(rail), secondViewOf(rail, picture)}, defaultProfile());
 }
 
 TEST(ViewsLocalizer, RepeatedFeaturesWithoutEndsInBothViews_EndAsAmbiguous) {
   const Case scene = railCase(Ends::kOutside, 0.0, 1.7, 3);
-  const Picture picture = takePicture(scene.solid, scene.camera, secondFromRig() * scene.truth);
-  ViewsRun run(scene, {viewOf(scene), secondRailView(scene, picture)}, defaultProfile());
-  const ViewsResult& result = run.finish();
+  const ViewsResult result = resultOfRail(scene);
   ASSERT_EQ(result.status, LocalizationStatus::kAmbiguous);
   ASSERT_GT(result.competing_poses.size(), 0);
   double nearest_pitches = 1e9;
@@ -339,9 +291,7 @@ TEST(ViewsLocalizer, RepeatedFeaturesWithoutEndsInBothViews_EndAsAmbiguous) {
 
 TEST(ViewsLocalizer, RepeatedFeaturesWithEndsHiddenInTheFirstViewOnly_ConvergeOnTheTruth) {
   const Case scene = railCase(Ends::kHidden, 1.0, 1.7, 3);
-  const Picture picture = takePicture(scene.solid, scene.camera, secondFromRig() * scene.truth);
-  ViewsRun run(scene, {viewOf(scene), secondRailView(scene, picture)}, defaultProfile());
-  const ViewsResult& result = run.finish();
+  const ViewsResult result = resultOfRail(scene);
   ASSERT_EQ(result.status, LocalizationStatus::kConverged);
   EXPECT_NEAR(pitchError(scene, result.rig_from_station).pitches, 0.0, 0.1);
 }
@@ -349,12 +299,10 @@ TEST(ViewsLocalizer, RepeatedFeaturesWithEndsHiddenInTheFirstViewOnly_ConvergeOn
 TEST(ViewsLocalizer, BlackImages_Fail) {
   const Case scene = stationCase(1);
   const Picture blank = flatPicture(512, 512, 0);
-  View first = viewOf(scene);
-  View second = secondView(scene);
-  first.image = second.image = blank.view();
-  ViewsRun run(scene, {first, second}, defaultProfile());
-  EXPECT_NE(run.finish().status, LocalizationStatus::kConverged);
-  expectSamePose(run.localizer->result().rig_from_station, scene.seed);
+  const ViewsResult result = resultOf(
+      scene, {withImage(viewOf(scene), blank), secondViewOf(scene, blank)}, defaultProfile());
+  EXPECT_NE(result.status, LocalizationStatus::kConverged);
+  EXPECT_EQ(result.rig_from_station, scene.seed);
 }
 
 TEST(ViewsLocalizer, InvalidOptionsViewsAndCameras_AreRefused) {
@@ -374,23 +322,19 @@ TEST(ViewsLocalizer, InvalidOptionsViewsAndCameras_AreRefused) {
 // Equations of one camera in the frame of another, against perturbations carried out and against
 // one list of equations.
 
-double signedUniform(Random& random) { return 2.0 * random.uniform() - 1.0; }
-
-Eigen::Vector3d randomVector(Random& random, double size) {
-  return {size * signedUniform(random), size * signedUniform(random), size * signedUniform(random)};
-}
-
-Pose randomPose(Random& random, double turn_rad, double shift_m) {
-  return {rotationExp(randomVector(random, turn_rad)), randomVector(random, shift_m)};
+/// The rotation's components within `turn_rad`, those of the translation within `shift_m`.
+Vector6d randomPerturbation(Random& random, double turn_rad, double shift_m) {
+  Vector6d xi;
+  xi << randomVector(random, turn_rad), randomVector(random, shift_m);
+  return xi;
 }
 
 TEST(AdjointOf, MapsSmallPerturbationsBetweenCameras) {
   Random random(11);
   for (int i = 0; i < 50; ++i) {
-    const Pose a_from_b = randomPose(random, 2.0, 0.5);
-    const Pose b_from_station = randomPose(random, 2.0, 0.5);
-    Vector6d xi;
-    xi << randomVector(random, 1e-5), randomVector(random, 1e-5);
+    const Pose a_from_b = randomPose(random, 0.5);
+    const Pose b_from_station = randomPose(random, 0.5);
+    const Vector6d xi = randomPerturbation(random, 1e-5, 1e-5);
     const Pose moved = a_from_b * perturbed(xi, b_from_station);
     const Vector6d carried = perturbationBetween(a_from_b * b_from_station, moved);
     EXPECT_LT((carried - adjointOf(a_from_b) * xi).norm(), 1e-9);
@@ -402,23 +346,21 @@ struct Seen {
   std::array<PnpView, 2> views;
 };
 
-/// Two cameras that see points about the station exactly from a pose.
-Seen seenFrom(const Camera& camera, const Pose& second_from_first, const Pose& first_from_station,
-              Random& random) {
+/// Two cameras that see points about the station exactly from the true pose.
+Seen seenByTwo(const Camera& camera, Random& random) {
   Seen seen;
-  seen.views[0] = {&camera, Pose(), 0};
-  seen.views[1] = {&camera, second_from_first, 0};
-  for (std::size_t v = 0; v < 2; ++v) {
-    const Pose camera_from_station =
-        v == 0 ? first_from_station : second_from_first * first_from_station;
+  seen.views = {PnpView{&camera, Pose(), 0},
+                PnpView{&camera, Pose{rotationExp({0.0, -0.2, 0.1}), {0.1, 0.0, 0.02}}, 0}};
+  for (PnpView& view : seen.views) {
     for (int i = 0; i < 20; ++i) {
       Correspondence correspondence;
       correspondence.point_in_station_m = randomVector(random, 0.05);
-      EXPECT_TRUE(project(camera, camera_from_station * correspondence.point_in_station_m,
+      EXPECT_TRUE(project(camera,
+                          view.camera_from_first * truthPose() * correspondence.point_in_station_m,
                           correspondence.pixel));
       seen.correspondences.push_back(correspondence);
     }
-    seen.views[v].end = static_cast<std::int32_t>(seen.correspondences.size());
+    view.end = static_cast<std::int32_t>(seen.correspondences.size());
   }
   return seen;
 }
@@ -428,11 +370,8 @@ TEST(RefinePoseOfViews, TwoViews_ConvergeOnTheCommonPose) {
   const Camera camera = pinholeCamera();
   for (int i = 0; i < 20; ++i) {
     const Pose truth = truthPose();
-    const Pose second_from_first{rotationExp({0.0, -0.2, 0.1}), {0.1, 0.0, 0.02}};
-    const Seen seen = seenFrom(camera, second_from_first, truth, random);
-    Vector6d xi;
-    xi << randomVector(random, 0.05), randomVector(random, 0.01);
-    Pose pose = perturbed(xi, truth);
+    const Seen seen = seenByTwo(camera, random);
+    Pose pose = perturbed(randomPerturbation(random, 0.05, 0.01), truth);
     ASSERT_EQ(refinePose(seen.correspondences, {}, seen.views, nullptr, 30, pose), Status::kOk);
     EXPECT_LT(perturbationBetween(truth, pose).norm(), 1e-9);
   }
@@ -442,9 +381,8 @@ TEST(PnpRansacOfViews, EverySamplerFindsThePoseDespiteWrongMatchesInEither) {
   Random random(13);
   const Camera camera = pinholeCamera();
   const Pose truth = truthPose();
-  const Pose second_from_first{rotationExp({0.0, -0.2, 0.1}), {0.1, 0.0, 0.02}};
   for (const PnpSampler sampler : {PnpSampler::kGuided, PnpSampler::kEpnp}) {
-    Seen seen = seenFrom(camera, second_from_first, truth, random);
+    Seen seen = seenByTwo(camera, random);
     for (std::size_t i = 0; i < seen.correspondences.size(); i += 4)
       seen.correspondences[i].pixel += Eigen::Vector2d(40.0, -25.0 - static_cast<double>(i));
     std::vector<std::byte> memory(100000);
@@ -458,10 +396,8 @@ TEST(PnpRansacOfViews, EverySamplerFindsThePoseDespiteWrongMatchesInEither) {
     solution.residual_px = residual_px;
     PnpOptions options;
     options.sampler = sampler;
-    Vector6d xi;
-    xi << randomVector(random, 0.02), randomVector(random, 0.005);
-    ASSERT_EQ(ransac.begin(seen.correspondences, seen.views, {perturbed(xi, truth), {}}, 2.0,
-                           options, solution),
+    const Pose start = perturbed(randomPerturbation(random, 0.02, 0.005), truth);
+    ASSERT_EQ(ransac.begin(seen.correspondences, seen.views, {start, {}}, 2.0, options, solution),
               Status::kOk);
     bool done = false;
     Status status = Status::kOk;
