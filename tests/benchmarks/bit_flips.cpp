@@ -66,8 +66,7 @@ std::vector<std::uint8_t> bytesOf(const char* file) {
 Pose readTruth(const char* file) {
   std::ifstream stream(file);
   Eigen::Matrix4d matrix;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column) stream >> matrix(row, column);
+  for (int i = 0; i < 16; ++i) stream >> matrix(i / 4, i % 4);
   Pose pose;
   double deviation = 0.0;
   const Status status =
@@ -85,8 +84,7 @@ void readInputs(const char* problem_file, const char* image_file, Inputs& inputs
   inputs.pixels_begin = arena.used();
   const Camera& camera = inputs.problem.camera;
   const std::vector<std::uint8_t> pgm = bytesOf(image_file);
-  const auto count =
-      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  const auto count = static_cast<std::size_t>(camera.width * camera.height);
   if (pgm.size() < count) throw std::runtime_error("the image is too small");
   const std::span<std::uint8_t> pixels = arena.allocate<std::uint8_t>(count);
   std::copy(pgm.end() - static_cast<std::ptrdiff_t>(count), pgm.end(), pixels.begin());
@@ -207,9 +205,8 @@ Child startTrial(Localizer& localizer, const Flip& flip, const Reference& refere
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t pid = fork();
   if (pid == 0) {
-    const rlimit limit{kMostSeconds, kMostSeconds};
+    const rlimit limit{kMostSeconds, kMostSeconds}, no_core{0, 0};
     setrlimit(RLIMIT_CPU, &limit);
-    const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     *flip.byte ^= static_cast<std::byte>(1U << flip.bit);
     const Outcome outcome = finish(localizer, flip.step, reference);
@@ -239,8 +236,7 @@ class Tally {
       kind = "endless";
     ++counts_[kind][placeOf(child.flip.byte)];
     ++trials_;
-    if (kind != "accepted, same pose, same digest" && kind != "accepted, same pose, other digest")
-      print(kind, child.flip, outcome);
+    if (!kind.starts_with("accepted, same pose")) print(kind, child.flip, outcome);
   }
 
   void print() const {
@@ -265,13 +261,10 @@ class Tally {
     if (outcome.status != LocalizationStatus::kConverged)
       return std::string("refused: ") + localizationStatusText(outcome.status);
     if (same_pose) return "accepted, same pose" + digest;
-    return (isRight(outcome) ? "accepted, other pose within the requirement" : "accepted, WRONG") +
-           digest;
-  }
-
-  bool isRight(const Outcome& outcome) const {
-    return errorOf(inputs_, inputs_.camera_from_station_true, outcome.camera_from_station)
-        .isWithinRequirement();
+    const bool right =
+        errorOf(inputs_, inputs_.camera_from_station_true, outcome.camera_from_station)
+            .isWithinRequirement();
+    return (right ? "accepted, other pose within the requirement" : "accepted, WRONG") + digest;
   }
 
   std::string placeOf(const std::byte* byte) const {

@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -41,40 +40,46 @@
 namespace boresight::test {
 namespace {
 
+using nlohmann::ordered_json;
 using sessions::CheckLimits;
+using sessions::Session;
+using sessions::SessionCase;
 
 /// Limits by the check that they hold for; the others' come from the requirement or are fixed.
-const std::map<std::string, double CheckLimits::*>& limitsByCheck() {
-  static const std::map<std::string, double CheckLimits::*> all = {
-      {"corrections_shrink", &CheckLimits::last_correction_percent},
-      {"inlier_count", &CheckLimits::inlier_count},
-      {"inlier_ratio", &CheckLimits::inlier_ratio_percent},
-      {"inlier_spread", &CheckLimits::inlier_spread_percent},
-      {"inlier_depth", &CheckLimits::inlier_depth_percent},
-      {"matches_at_border", &CheckLimits::border_percent},
-      {"peak_margin", &CheckLimits::peak_margin_percent},
-      {"edge_coverage", &CheckLimits::coverage_percent},
-      {"edge_clutter", &CheckLimits::clutter_percent},
-      {"edge_evidence", &CheckLimits::evidence_percent},
-      {"convergence_returned", &CheckLimits::convergence_percent},
-      {"convergence_competing", &CheckLimits::competing_percent},
-      {"edge_fall_off", &CheckLimits::fall_off_percent},
-      {"camera_focal", &CheckLimits::focal_percent},
-      {"camera_centre", &CheckLimits::centre_px}};
-  return all;
+const std::map<std::string, double CheckLimits::*> kLimitsByCheck = {
+    {"corrections_shrink", &CheckLimits::last_correction_percent},
+    {"inlier_count", &CheckLimits::inlier_count},
+    {"inlier_ratio", &CheckLimits::inlier_ratio_percent},
+    {"inlier_spread", &CheckLimits::inlier_spread_percent},
+    {"inlier_depth", &CheckLimits::inlier_depth_percent},
+    {"matches_at_border", &CheckLimits::border_percent},
+    {"peak_margin", &CheckLimits::peak_margin_percent},
+    {"edge_coverage", &CheckLimits::coverage_percent},
+    {"edge_clutter", &CheckLimits::clutter_percent},
+    {"edge_evidence", &CheckLimits::evidence_percent},
+    {"convergence_returned", &CheckLimits::convergence_percent},
+    {"convergence_competing", &CheckLimits::competing_percent},
+    {"edge_fall_off", &CheckLimits::fall_off_percent},
+    {"camera_focal", &CheckLimits::focal_percent},
+    {"camera_centre", &CheckLimits::centre_px}};
+
+std::vector<ordered_json> linesOf(const std::string& file) {
+  std::vector<ordered_json> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(ordered_json::parse(line));
+  return lines;
 }
 
-bool fails(const nlohmann::json& check, const CheckLimits& limits) {
+bool fails(const ordered_json& check, const CheckLimits& limits) {
   if (check["state"] == "not_applicable") return false;
-  const auto known = limitsByCheck().find(check["id"].get<std::string>());
-  if (known == limitsByCheck().end() || !check.contains("figure"))
-    return check["state"] == "failed";
+  const auto known = kLimitsByCheck.find(check["id"].get<std::string>());
+  if (known == kLimitsByCheck.end() || !check.contains("figure")) return check["state"] == "failed";
   const double figure = check["figure"];
   const double limit = limits.*(known->second);
   return check["side"] == "at_least" ? figure < limit : figure > limit;
 }
 
-const CheckLimits& limitsOf(const nlohmann::json& line) {
+const CheckLimits& limitsOf(const ordered_json& line) {
   const bool synthetic = line["set"] == "synthetic";
   return sessions::findCheckPreset(synthetic ? "sample_transfer" : "photographs")->limits;
 }
@@ -86,10 +91,6 @@ int halfOf(const std::string& case_id) {
   return static_cast<int>((hash >> 7) & 1U);
 }
 
-bool isWrongCamera(const std::string& variant) {
-  return variant.starts_with("focal") || variant.starts_with("centre");
-}
-
 /// As an operator would have it, with nothing made wrong.
 bool isUnaltered(const std::string& variant) {
   return variant == "right" || variant.starts_with("reseed");
@@ -97,9 +98,9 @@ bool isUnaltered(const std::string& variant) {
 
 /// What only another camera or a better calibration tells is counted by itself; so is what is right
 /// though something was made wrong: seeds out of range, half of the station hidden.
-std::string groupOf(const nlohmann::json& line) {
+std::string groupOf(const ordered_json& line) {
   const std::string variant = line["variant"];
-  if (isWrongCamera(variant))
+  if (variant.starts_with("focal") || variant.starts_with("centre"))
     return line.value("right_in_image", false) ? ", wrong camera, right in the image"
                                                : ", wrong camera";
   return line["right"] && !isUnaltered(variant) ? ", altered" : "";
@@ -114,13 +115,13 @@ struct Tally {
 
 class Judgement {
  public:
-  void add(const nlohmann::json& line) {
+  void add(const ordered_json& line) {
     const std::string set = line["set"];
     ++runs_[set + "  " + line["variant"].get<std::string>()][line["status"] == "converged" ? 1 : 0];
     if (!line.contains("checks")) return;
     const CheckLimits& limits = limitsOf(line);
     std::string failed;
-    for (const nlohmann::json& check : line["checks"]) {
+    for (const ordered_json& check : line["checks"]) {
       if (!fails(check, limits)) continue;
       failed += " " + check["id"].get<std::string>();
       ++by_check_[set + "  " + check["id"].get<std::string>()][line["right"] ? 1 : 0];
@@ -147,7 +148,7 @@ class Judgement {
   }
 
  private:
-  void count(const nlohmann::json& line, const std::string& set, const std::string& failed) {
+  void count(const ordered_json& line, const std::string& set, const std::string& failed) {
     const std::string id = line["case"];
     const int half = halfOf(id);
     Tally& tally = tallies_[set + groupOf(line) + (half == 0 ? ", set on" : ", held back")];
@@ -172,11 +173,10 @@ class Judgement {
 };
 
 /// Whether none of a line's checks fails by the presets' limits as they are now.
-bool passes(const nlohmann::json& line) {
-  if (!line.contains("checks")) return false;
-  for (const nlohmann::json& check : line["checks"])
-    if (fails(check, limitsOf(line))) return false;
-  return true;
+bool passes(const ordered_json& line) {
+  return line.contains("checks") &&
+         std::none_of(line["checks"].begin(), line["checks"].end(),
+                      [&line](const auto& check) { return fails(check, limitsOf(line)); });
 }
 
 /// Judges measured checks by the presets' limits as they are now and prints, for either half of the
@@ -184,16 +184,10 @@ bool passes(const nlohmann::json& line) {
 /// refused, which these are, and by which checks. 1 when a wrong one passes.
 int judge(const std::vector<std::string>& files) {
   Judgement judgement;
-  for (const std::string& file : files) {
-    std::ifstream stream(file);
-    for (std::string line; std::getline(stream, line);) judgement.add(nlohmann::json::parse(line));
-  }
+  for (const std::string& file : files)
+    for (const ordered_json& line : linesOf(file)) judgement.add(line);
   return judgement.print();
 }
-
-using nlohmann::ordered_json;
-using sessions::Session;
-using sessions::SessionCase;
 
 const SessionCase& lender(const Session& session, const SessionCase& session_case) {
   const SessionCase* first = nullptr;
@@ -207,23 +201,12 @@ const SessionCase& lender(const Session& session, const SessionCase& session_cas
   return *first;
 }
 
-ordered_json errorJson(const CheckedVariant& variant, const Pose& camera_from_station,
-                       bool& meets) {
-  const SessionCase& session_case = variant.loaded->source;
-  sessions::PoseError error = sessions::poseError(
-      variant.camera_from_station_true, camera_from_station, session_case.camera_from_end_effector);
-  if (session_case.requirement->projection_px)
-    error.projection_px = sessions::projectionError(
-        variant.true_camera, variant.camera_from_station_true, camera_from_station,
-        sessions::matchedVertices(variant.loaded->scene.view()));
-  meets = sessions::meetsRequirement(error, *session_case.requirement);
-  return sessions::toJson(error);
-}
-
-/// Mean distance of the station's vertices in the image, each pose through the camera that it was
-/// found with: what a requirement in pixels asks. Nothing of the camera's error shows in it.
-std::optional<double> distanceInImage(const CheckedVariant& variant,
-                                      const Pose& camera_from_station) {
+/// Whether a requirement that is one in the image alone is met there: by the mean distance of the
+/// station's vertices, each pose through the camera that it was found with. Nothing of the camera's
+/// error shows in it.
+bool meetsInImage(const CheckedVariant& variant, const Pose& camera_from_station) {
+  const sessions::Requirement& required = *variant.loaded->source.requirement;
+  if (variant.wrong_mesh || !required.projection_px || required.normal_mm) return false;
   double sum_px = 0.0;
   double count = 0.0;
   for (const auto& vertex : sessions::matchedVertices(variant.loaded->scene.view())) {
@@ -236,16 +219,7 @@ std::optional<double> distanceInImage(const CheckedVariant& variant,
     sum_px += (found_px - true_px).norm();
     count += 1.0;
   }
-  if (count == 0.0) return {};
-  return sum_px / count;
-}
-
-/// Whether a requirement that is one in the image alone is met there.
-bool meetsInImage(const CheckedVariant& variant, const Pose& camera_from_station) {
-  const sessions::Requirement& required = *variant.loaded->source.requirement;
-  if (!required.projection_px || required.normal_mm) return false;
-  const auto distance_px = distanceInImage(variant, camera_from_station);
-  return distance_px && *distance_px <= *required.projection_px;
+  return count > 0.0 && sum_px / count <= *required.projection_px;
 }
 
 sessions::ReviewSubject subjectOf(const CheckedVariant& variant, const Pose& camera_from_station) {
@@ -271,14 +245,21 @@ ordered_json measured(const CheckedVariant& variant) {
     sessions::LocalizationTrace trace = runCase(*variant.loaded, variant.options);
     json["status"] = boresight::localizationStatusText(trace.status);
     if (!trace.converged()) return json;
-    bool meets = false;
-    json["error"] = errorJson(variant, trace.camera_from_station, meets);
-    json["right"] = meets && !variant.wrong_mesh;
-    json["right_in_image"] =
-        !variant.wrong_mesh && meetsInImage(variant, trace.camera_from_station);
+    const SessionCase& session_case = variant.loaded->source;
+    sessions::PoseError error =
+        sessions::poseError(variant.camera_from_station_true, trace.camera_from_station,
+                            session_case.camera_from_end_effector);
+    if (session_case.requirement->projection_px)
+      error.projection_px = sessions::projectionError(
+          variant.true_camera, variant.camera_from_station_true, trace.camera_from_station,
+          sessions::matchedVertices(variant.loaded->scene.view()));
+    json["error"] = sessions::toJson(error);
+    json["right"] =
+        !variant.wrong_mesh && sessions::meetsRequirement(error, *session_case.requirement);
+    json["right_in_image"] = meetsInImage(variant, trace.camera_from_station);
     json["pose"] = sessions::exactPoseJson(trace.camera_from_station);
     sessions::ReviewSubject subject = subjectOf(variant, trace.camera_from_station);
-    subject.covariance = poseCovariance(variant.loaded->source, variant.loaded->scene.view(),
+    subject.covariance = poseCovariance(session_case, variant.loaded->scene.view(),
                                         trace.camera_from_station, trace.covariance);
     subject.run = std::move(trace);
     json["checks"] = checksJson(subject);
@@ -288,34 +269,19 @@ ordered_json measured(const CheckedVariant& variant) {
   return json;
 }
 
-std::vector<ordered_json> linesOf(const std::string& file) {
-  std::vector<ordered_json> lines;
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) lines.push_back(ordered_json::parse(line));
-  return lines;
-}
-
 std::string keyOf(const ordered_json& json) {
   return json["case"].get<std::string>() + "|" + json["variant"].get<std::string>();
 }
 
-Session sessionOf(const std::string& dataset) { return sessions::makeSession(dataset); }
-
-bool isPhotograph(const SessionCase& session_case) {
-  return std::find(session_case.tags.begin(), session_case.tags.end(), "real") !=
-         session_case.tags.end();
-}
-
 int measure(const std::string& dataset, const std::string& out, std::size_t every) {
-  const Session session = sessionOf(dataset);
+  const Session session = sessions::makeSession(dataset);
   std::set<std::string> done;
   for (const ordered_json& line : linesOf(out)) done.insert(keyOf(line));
   std::ofstream stream(out, std::ios::app);
   for (std::size_t i = 0; i < session.cases.size(); ++i) {
     const SessionCase& session_case = *session.cases[i];
     for (const std::string& name : variantNames(isPhotograph(session_case))) {
-      const bool may_be_right = name == "right" || name.starts_with("reseed");
-      if (!may_be_right && i % every != 0) continue;
+      if (!isUnaltered(name) && i % every != 0) continue;
       ordered_json json = {
           {"case", session_case.id}, {"station", session_case.station}, {"variant", name}};
       json["set"] = isPhotograph(session_case) ? "photographs" : "synthetic";
@@ -337,9 +303,9 @@ bool isOfConvergence(const std::string& id) { return id.starts_with("convergence
 
 /// Measures the checks that `which` selects again, on lines that `when` selects; keeps the others.
 int measureAnew(const std::string& dataset, const std::string& from, const std::string& to,
-                const std::function<bool(const ordered_json&)>& when,
-                const std::function<bool(const std::string&)>& which, int convergence_seeds) {
-  const Session session = sessionOf(dataset);
+                bool (*when)(const ordered_json&), bool (*which)(const std::string&),
+                int convergence_seeds) {
+  const Session session = sessions::makeSession(dataset);
   const std::size_t done = linesOf(to).size();
   std::ofstream stream(to, std::ios::app);
   std::size_t number = 0;
@@ -352,7 +318,7 @@ int measureAnew(const std::string& dataset, const std::string& from, const std::
                       line["variant"].get<std::string>());
       const auto pose_json = nlohmann::json::parse(line["pose"].dump());
       const Pose pose = sessions::readExactPose(sessions::JsonReader(from, pose_json, "pose"));
-      line["right_in_image"] = !variant.wrong_mesh && meetsInImage(variant, pose);
+      line["right_in_image"] = meetsInImage(variant, pose);
       ordered_json kept = ordered_json::array();
       for (const ordered_json& check : line["checks"])
         if (!which(check["id"].get<std::string>())) kept.push_back(check);
@@ -376,13 +342,12 @@ int main(int argc, char** argv) {
                                       arguments.size() > 3 ? std::stoul(arguments[3]) : 1);
     if (arguments.size() == 4 && arguments[0] == "recheck")
       return boresight::test::measureAnew(
-          arguments[1], arguments[2], arguments[3], [](const auto&) { return true; },
-          boresight::test::isOfEdges, 0);
-    if (arguments.size() == 5 && arguments[0] == "convergence")
-      return boresight::test::measureAnew(
           arguments[1], arguments[2], arguments[3],
-          [](const auto& line) { return boresight::test::passes(nlohmann::json(line)); },
-          boresight::test::isOfConvergence, std::stoi(arguments[4]));
+          [](const nlohmann::ordered_json&) { return true; }, boresight::test::isOfEdges, 0);
+    if (arguments.size() == 5 && arguments[0] == "convergence")
+      return boresight::test::measureAnew(arguments[1], arguments[2], arguments[3],
+                                          boresight::test::passes, boresight::test::isOfConvergence,
+                                          std::stoi(arguments[4]));
     if (arguments.size() >= 2 && arguments[0] == "judge")
       return boresight::test::judge({arguments.begin() + 1, arguments.end()});
   } catch (const std::exception& error) {

@@ -14,17 +14,6 @@ namespace {
 using sessions::LoadedCase;
 using sessions::SessionCase;
 
-/// What a variant is made from: a copy of a case as it was read, with changes.
-std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
-  auto result = std::make_shared<LoadedCase>();
-  result->source = loaded.source;
-  result->image = loaded.image;
-  result->scene = loaded.scene;
-  result->ignore = loaded.ignore;
-  if (result->ignore) result->ignore_bits = result->ignore->view();
-  return result;
-}
-
 /// Mirrored through the station's origin, or through the middle of its box.
 void mirrorMesh(sessions::SceneMesh& scene, int axis, bool about_origin) {
   const double middle_m = about_origin ? 0.0 : matchedBounds(scene.view()).centre()(axis);
@@ -33,15 +22,11 @@ void mirrorMesh(sessions::SceneMesh& scene, int axis, bool about_origin) {
   for (Face& face : scene.faces) std::swap(face.vertex[1], face.vertex[2]);
 }
 
-void scaleFocal(Camera& camera, double factor) {
-  camera.fx *= factor;
-  camera.fy *= factor;
-  if (prepareCamera(camera) != Status::kOk) throw std::runtime_error("camera");
-}
-
-void moveCentre(Camera& camera, double x_px, double y_px) {
-  camera.cx += x_px;
-  camera.cy += y_px;
+void changeCamera(Camera& camera, double focal_factor, double right_px, double down_px) {
+  camera.fx *= focal_factor;
+  camera.fy *= focal_factor;
+  camera.cx += right_px;
+  camera.cy += down_px;
   if (prepareCamera(camera) != Status::kOk) throw std::runtime_error("camera");
 }
 
@@ -79,21 +64,22 @@ void reseed(LoadedCase& loaded, const Pose& camera_from_station_true, double sca
 
 void change(LoadedCase& loaded, const SessionCase& other, const Pose& truth,
             const std::string& variant, bool photograph) {
+  Camera& camera = loaded.source.camera;
+  const double fx = camera.fx;
   if (variant == "reseed 1") reseed(loaded, truth, 1.0, 1);
   if (variant == "reseed 2") reseed(loaded, truth, 1.0, 2);
   if (variant == "seed 2x") reseed(loaded, truth, 2.0, 3);
   if (variant == "seed 3x") reseed(loaded, truth, 3.0, 4);
   if (variant == "seed 4x") reseed(loaded, truth, 4.0, 5);
-  if (variant == "focal +1 %") scaleFocal(loaded.source.camera, 1.01);
-  if (variant == "focal -1 %") scaleFocal(loaded.source.camera, 0.99);
-  if (variant == "centre +10 px") moveCentre(loaded.source.camera, 10.0, 0.0);
-  if (variant == "centre -10 px") moveCentre(loaded.source.camera, 0.0, -10.0);
-  if (variant == "focal +3 %") scaleFocal(loaded.source.camera, 1.03);
-  if (variant == "focal -3 %") scaleFocal(loaded.source.camera, 0.97);
-  if (variant == "focal +8 %") scaleFocal(loaded.source.camera, 1.08);
-  const double fx = loaded.source.camera.fx;
-  if (variant == "centre +1 %") moveCentre(loaded.source.camera, 0.01 * fx, -0.006 * fx);
-  if (variant == "centre +4 %") moveCentre(loaded.source.camera, 0.04 * fx, -0.024 * fx);
+  if (variant == "focal +1 %") changeCamera(camera, 1.01, 0.0, 0.0);
+  if (variant == "focal -1 %") changeCamera(camera, 0.99, 0.0, 0.0);
+  if (variant == "centre +10 px") changeCamera(camera, 1.0, 10.0, 0.0);
+  if (variant == "centre -10 px") changeCamera(camera, 1.0, 0.0, -10.0);
+  if (variant == "focal +3 %") changeCamera(camera, 1.03, 0.0, 0.0);
+  if (variant == "focal -3 %") changeCamera(camera, 0.97, 0.0, 0.0);
+  if (variant == "focal +8 %") changeCamera(camera, 1.08, 0.0, 0.0);
+  if (variant == "centre +1 %") changeCamera(camera, 1.0, 0.01 * fx, -0.006 * fx);
+  if (variant == "centre +4 %") changeCamera(camera, 1.0, 0.04 * fx, -0.024 * fx);
   if (variant == "mirrored in x") mirrorMesh(loaded.scene, 0, !photograph);
   if (variant == "mirrored in y") mirrorMesh(loaded.scene, 1, !photograph);
   if (variant == "hidden 50 %") occlude(loaded, truth, 0.5);
@@ -105,6 +91,20 @@ void change(LoadedCase& loaded, const SessionCase& other, const Pose& truth,
 }
 
 }  // namespace
+
+bool isPhotograph(const SessionCase& session_case) {
+  return std::ranges::count(session_case.tags, "real") > 0;
+}
+
+std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
+  auto result = std::make_shared<LoadedCase>();
+  result->source = loaded.source;
+  result->image = loaded.image;
+  result->scene = loaded.scene;
+  result->ignore = loaded.ignore;
+  if (result->ignore) result->ignore_bits = result->ignore->view();
+  return result;
+}
 
 std::vector<std::string> variantNames(bool photographs) {
   std::vector<std::string> names = {"right"};
@@ -119,15 +119,12 @@ std::vector<std::string> variantNames(bool photographs) {
 
 CheckedVariant makeVariant(const sessions::Session& session, const SessionCase& session_case,
                            const SessionCase& other, const std::string& variant) {
-  const auto read = sessions::loadCase(session_case);
-  auto loaded = copyOf(*read);
-  const bool photograph = std::find(session_case.tags.begin(), session_case.tags.end(), "real") !=
-                          session_case.tags.end();
+  auto loaded = copyOf(*sessions::loadCase(session_case));
   CheckedVariant checked_variant;
-  checked_variant.variant = variant;
   checked_variant.camera_from_station_true = session_case.camera_from_station_truth.value();
   checked_variant.true_camera = session_case.camera;
-  change(*loaded, other, checked_variant.camera_from_station_true, variant, photograph);
+  change(*loaded, other, checked_variant.camera_from_station_true, variant,
+         isPhotograph(session_case));
   loaded->source.camera_from_station_truth.reset();
   checked_variant.wrong_mesh = variant == "other mesh";
   checked_variant.options = sessions::caseOptions(session, session_case, "session");

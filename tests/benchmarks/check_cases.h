@@ -14,13 +14,17 @@ namespace boresight::test {
 
 /// One case as it is run, and what its pose is judged by.
 struct CheckedVariant {
-  std::string variant;  ///< "right", "focal+3", "mesh mirrored x", ...
   std::shared_ptr<const sessions::LoadedCase> loaded;  ///< without truth
   bool wrong_mesh = false;  ///< of another station: no pose of it is right
   LocalizerOptions options;
   Pose camera_from_station_true;
   Camera true_camera;
 };
+
+bool isPhotograph(const sessions::SessionCase& session_case);
+
+/// A copy of a case as it was read, to be changed.
+std::shared_ptr<sessions::LoadedCase> copyOf(const sessions::LoadedCase& loaded);
 
 /// Names of the variants of a case, in the order in which they are run.
 std::vector<std::string> variantNames(bool photographs);

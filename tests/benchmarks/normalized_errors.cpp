@@ -9,6 +9,7 @@
 #include <exception>
 #include <iostream>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -63,8 +64,7 @@ void print(const std::map<std::string, Sums>& all) {
   for (const auto& [key, sums] : all) {
     std::vector<double> sorted = sums.together;
     std::sort(sorted.begin(), sorted.end());
-    double mean = 0.0;
-    for (const double value : sorted) mean += value / sums.runs;
+    const double mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / sums.runs;
     std::printf("| %s | %d | %.1f | %.1f |", key.c_str(), sums.runs, mean,
                 sorted[sorted.size() / 2]);
     for (const double square : sums.axes) std::printf(" %.2f |", square / sums.runs);

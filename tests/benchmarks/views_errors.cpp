@@ -19,6 +19,7 @@
 #include "sessions/run/runner.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/session/views_run.h"
+#include "tests/benchmarks/check_cases.h"
 
 namespace boresight::test {
 namespace {
@@ -33,26 +34,15 @@ struct RigRun {
   double seconds = 0.0;
 };
 
-std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded_case) {
-  auto copy = std::make_shared<LoadedCase>();
-  copy->source = loaded_case.source;
-  copy->image = loaded_case.image;
-  copy->scene = loaded_case.scene;
-  copy->ignore = loaded_case.ignore;
-  if (copy->ignore) copy->ignore_bits = copy->ignore->view();
-  return copy;
-}
-
 RigRun localizeViews(const Rig& rig) {
   sessions::LoadedViews loaded;
   for (const auto& item : rig) {
-    View view;
+    View& view = loaded.views.emplace_back();
     view.image = item->image.view();
     view.ignore = item->ignore ? &item->ignore_bits : nullptr;
     view.camera = item->source.camera;
     view.mesh = item->scene.view();
     view.camera_from_rig = item->source.rig->camera_from_rig;
-    loaded.views.push_back(view);
     loaded.cases.push_back(item);
   }
   LocalizerOptions options = defaultProfile();
@@ -92,17 +82,21 @@ void noteRun(const Rig& rig, const RigRun& run, Row& row) {
   if (!within) ++row.beyond;
 }
 
-enum class Spoil { kBlack, kHalf, kSaturated };
+struct Spoiling {
+  const char* name;
+  int (*spoiled)(int gray, bool left);  ///< a pixel of the left or the right half
+};
 
-void spoil(sessions::GrayImage& image, Spoil how) {
+constexpr Spoiling kSpoilings[] = {
+    {"2 black", [](int, bool) { return 0; }},
+    {"3 half covered", [](int gray, bool left) { return left ? 0 : gray; }},
+    {"4 over-exposed", [](int gray, bool) { return std::min(255, 6 * gray); }}};
+
+void spoil(sessions::GrayImage& image, const Spoiling& how) {
   const auto width = static_cast<std::size_t>(image.width);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    std::uint8_t& gray = image.pixels[i];
-    if (how == Spoil::kBlack) gray = 0;
-    if (how == Spoil::kHalf && i % width < width / 2) gray = 0;
-    if (how == Spoil::kSaturated)
-      gray = static_cast<std::uint8_t>(std::min(255, 6 * static_cast<int>(gray)));
-  }
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] =
+        static_cast<std::uint8_t>(how.spoiled(image.pixels[i], i % width < width / 2));
 }
 
 void runWhole(const Rig& rig, std::map<std::string, Row>& rows) {
@@ -111,13 +105,12 @@ void runWhole(const Rig& rig, std::map<std::string, Row>& rows) {
 }
 
 void runSpoiled(const Rig& rig, std::map<std::string, Row>& rows) {
-  const char* const names[] = {"black", "half covered", "over-exposed"};
-  for (int how = 0; how < 3; ++how) {
+  for (const Spoiling& how : kSpoilings) {
     for (std::size_t v = 0; v < rig.size(); ++v) {
       Rig spoiled = rig;
       spoiled[v] = copyOf(*rig[v]);
-      spoil(spoiled[v]->image, static_cast<Spoil>(how));
-      const std::string text = std::to_string(2 + how) + " " + names[how];
+      spoil(spoiled[v]->image, how);
+      const std::string text = how.name;
       noteRun({spoiled[v]}, localizeViews({spoiled[v]}), rows[text + ", alone"]);
       const RigRun run = localizeViews(spoiled);
       Row& row = rows[text + (v == 0 ? ", first of the pair" : ", second of the pair")];

@@ -80,7 +80,6 @@ struct Scene {
 /// A template of `side` px in the middle and a window of `extent` x `extent` offsets around it.
 struct Case {
   int side, extent;
-  bool half_mask;
   cv::Mat template_pixels, region;
   Bits object, mask, test;
   boresight::TemplateView view;
@@ -88,11 +87,9 @@ struct Case {
   std::vector<std::byte> memory;
   boresight::WhsSearch search;
 
-  Case(int side_px, int extent_px, bool half, const Scene& scene,
-       Kernels kernels = Kernels::kPortable)
+  Case(int side_px, int extent_px, bool half, const Scene& scene, Kernels kernels)
       : side(side_px),
         extent(extent_px),
-        half_mask(half),
         object(scene.object),
         mask(makeMask(half)),
         test(scene.test) {
@@ -100,16 +97,11 @@ struct Case {
     const int corner = kImage_px / 2 - extent / 2;
     view = {&object.image, &mask.image, center, center, side};
     window = {corner, corner, corner + extent - 1, corner + extent - 1};
-    template_pixels =
-        scene.object(cv::Rect(center - side / 2, center - side / 2, side, side)).clone();
-    region = scene
-                 .test(cv::Rect(corner - side / 2, corner - side / 2, extent + side - 1,
-                                extent + side - 1))
-                 .clone();
-    use(kernels);
-  }
-
-  void use(Kernels kernels) {
+    const auto square = [this](int from, int size) {
+      return cv::Rect(from - side / 2, from - side / 2, size, size);
+    };
+    template_pixels = scene.object(square(center, side)).clone();
+    region = scene.test(square(corner, extent + side - 1)).clone();
     Arena count;
     (void)search.create(512, 1400, kernels, count);
     memory.assign(count.highWater(), std::byte{0});
@@ -130,9 +122,8 @@ struct Case {
 
   void whs() {
     if (search.begin(view, test.image, window, view.center_x, view.center_y, 8) !=
-        boresight::Status::kOk) {
+        boresight::Status::kOk)
       std::abort();
-    }
     while (!search.step()) {
     }
     benchmark::DoNotOptimize(search.peak());
@@ -151,16 +142,7 @@ const Scene& scene() {
   return the_scene;
 }
 
-enum class Method { kWhs, kNcc };
-
-void runOnce(Case& the_case, Method method) {
-  switch (method) {
-    case Method::kWhs:
-      return the_case.whs();
-    case Method::kNcc:
-      return the_case.ncc();
-  }
-}
+using Method = void (Case::*)();
 
 void runCase(benchmark::State& state, Method method, Kernels kernels) {
   if (!boresight::kernelsAvailable(kernels)) {
@@ -169,7 +151,7 @@ void runCase(benchmark::State& state, Method method, Kernels kernels) {
   }
   Case the_case(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)),
                 state.range(2) != 0, scene(), kernels);
-  for (auto _ : state) runOnce(the_case, method);
+  for (auto _ : state) (the_case.*method)();
   const double offsets = static_cast<double>(the_case.extent) * the_case.extent;
   state.counters["ns_per_offset"] = benchmark::Counter(
       offsets * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
@@ -191,9 +173,9 @@ void registerBenchmarks() {
   };
   for (int k = 0; k < boresight::kKernelSets; ++k) {
     const Kernels kernels = static_cast<Kernels>(k);
-    add(std::string("Whs/") + boresight::kernelsName(kernels), Method::kWhs, kernels);
+    add(std::string("Whs/") + boresight::kernelsName(kernels), &Case::whs, kernels);
   }
-  add("OpenCvNcc", Method::kNcc, Kernels::kPortable);
+  add("OpenCvNcc", &Case::ncc, Kernels::kPortable);
 }
 
 }  // namespace

@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "instruction.h"
 
+#include <algorithm>
+#include <initializer_list>
+
 namespace boresight::cycles {
 namespace {
+
+std::uint8_t registerIf(bool used, int number) {
+  return static_cast<std::uint8_t>(used ? number : kNone);
+}
+
+bool isOneOf(int opcode, std::initializer_list<int> opcodes) {
+  return std::find(opcodes.begin(), opcodes.end(), opcode) != opcodes.end();
+}
 
 /// Fields of a word, by the names of the architecture.
 struct Fields {
@@ -14,7 +25,7 @@ struct Fields {
   std::uint8_t d() const { return static_cast<std::uint8_t>(bits(6, 5)); }
   std::uint8_t a() const { return static_cast<std::uint8_t>(bits(11, 5)); }
   std::uint8_t b() const { return static_cast<std::uint8_t>(bits(16, 5)); }
-  std::uint8_t aOrZero() const { return a() == 0 ? std::uint8_t{kNone} : a(); }
+  std::uint8_t aOrZero() const { return registerIf(a() != 0, a()); }
   std::uint8_t floatRegister(int first) const {
     return static_cast<std::uint8_t>(kFirstFloat + bits(first, 5));
   }
@@ -43,7 +54,8 @@ void decodeBranch(const Fields& fields, Instruction& instruction) {
   if (instruction.counts) instruction.sources[2] = kCount;
   if (instruction.conditional) instruction.sources[0] = fields.conditionField(11);
   instruction.indirect = opcode == 19;
-  if (instruction.indirect) instruction.sources[1] = fields.bits(21, 10) == 16 ? kLink : kCount;
+  const bool by_link = fields.bits(21, 10) == 16;
+  instruction.sources[1] = registerIf(instruction.indirect, by_link ? kLink : kCount);
 }
 
 /// Opcode 19: branches to registers, logic of conditions, isync.
@@ -65,8 +77,8 @@ void decodeMemory(const Fields& fields, bool is_float, bool store, bool update, 
   const std::uint8_t data = is_float ? fields.floatRegister(6) : fields.d();
   instruction.memory = true;
   instruction.store = store;
-  instruction.sources = {fields.aOrZero(), indexed ? fields.b() : std::uint8_t{kNone},
-                         store ? data : std::uint8_t{kNone}, kNone};
+  instruction.sources = {fields.aOrZero(), registerIf(indexed, fields.b()), registerIf(store, data),
+                         kNone};
   if (!store) instruction.targets[0] = data;
   if (update) instruction.targets[1] = fields.a();
 }
@@ -87,85 +99,31 @@ void decodeDisplacement(const Fields& fields, Instruction& instruction) {
 
 /// Opcode 31, addition to division: extended opcodes of 9 bits. False: another instruction.
 bool decodeArithmetic(const Fields& fields, Instruction& instruction) {
-  bool writes_carry = false;
-  switch (fields.bits(22, 9)) {
-    case 266:
-    case 40:
-    case 104:
-      break;
-    case 10:
-    case 8:
-      writes_carry = true;
-      break;
-    case 138:
-    case 136:
-    case 202:
-    case 200:
-    case 234:
-    case 232:
-      writes_carry = instruction.uses_carry = true;
-      break;
-    case 235:
-    case 75:
-    case 11:
-      setTiming(instruction, Unit::kFirstInteger, Kind::kMultiply, 5, 5);
-      break;
-    case 491:
-    case 459:
-      setTiming(instruction, Unit::kFirstInteger, Kind::kDivide, 19, 19);
-      break;
-    default:
-      return false;
-  }
-  instruction.sources = {fields.a(), fields.b(), kNone,
-                         instruction.uses_carry ? std::uint8_t{kCarry} : std::uint8_t{kNone}};
-  instruction.targets = {fields.d(), writes_carry ? std::uint8_t{kCarry} : std::uint8_t{kNone},
-                         fields.record() ? std::uint8_t{kFirstCondition} : std::uint8_t{kNone}};
+  const int extended = fields.bits(22, 9);
+  const bool multiplies = isOneOf(extended, {235, 75, 11});
+  const bool divides = isOneOf(extended, {491, 459});
+  const bool uses_carry = isOneOf(extended, {138, 136, 202, 200, 234, 232});
+  const bool writes_carry = uses_carry || isOneOf(extended, {10, 8});
+  if (!multiplies && !divides && !writes_carry && !isOneOf(extended, {266, 40, 104})) return false;
+  if (multiplies) setTiming(instruction, Unit::kFirstInteger, Kind::kMultiply, 5, 5);
+  if (divides) setTiming(instruction, Unit::kFirstInteger, Kind::kDivide, 19, 19);
+  instruction.uses_carry = uses_carry;
+  instruction.sources = {fields.a(), fields.b(), kNone, registerIf(uses_carry, kCarry)};
+  instruction.targets = {fields.d(), registerIf(writes_carry, kCarry),
+                         registerIf(fields.record(), kFirstCondition)};
   return true;
 }
 
 /// Opcode 31, loads and stores with an index. False: another instruction.
 bool decodeIndexed(const Fields& fields, Instruction& instruction) {
   const int extended = fields.bits(21, 10);
-  switch (extended) {
-    case 23:
-    case 55:
-    case 87:
-    case 119:
-    case 279:
-    case 311:
-    case 343:
-    case 375:
-    case 20:
-    case 534:
-    case 790:
-    case 535:
-    case 567:
-    case 599:
-    case 631:
-    case 151:
-    case 183:
-    case 215:
-    case 247:
-    case 407:
-    case 439:
-    case 150:
-    case 662:
-    case 918:
-    case 663:
-    case 695:
-    case 727:
-    case 759:
-    case 983:
-      break;
-    default:
-      return false;
-  }
+  const bool store =
+      isOneOf(extended, {150, 151, 183, 215, 247, 407, 439, 662, 663, 695, 727, 759, 918, 983});
+  if (!store &&
+      !isOneOf(extended, {20, 23, 55, 87, 119, 279, 311, 343, 375, 534, 535, 567, 599, 631, 790}))
+    return false;
   const bool is_float =
       extended == 983 || (extended >= 535 && extended <= 759 && extended % 32 == 23);
-  const bool store = (extended >= 150 && extended <= 247) || extended == 407 || extended == 439 ||
-                     extended == 662 || extended == 918 || extended == 983 ||
-                     (is_float && extended >= 663);
   const bool update = extended % 64 == 55 && extended != 983;
   decodeMemory(fields, is_float, store, update, true, instruction);
   if (extended == 20 || extended == 150) instruction.serialized = true;
@@ -176,43 +134,28 @@ bool decodeIndexed(const Fields& fields, Instruction& instruction) {
 /// Opcode 31, moves of special registers and hints for caches. False: another instruction.
 bool decodeSpecial(const Fields& fields, Instruction& instruction) {
   const int extended = fields.bits(21, 10);
+  if (!isOneOf(extended, {19, 54, 86, 144, 246, 278, 339, 371, 467, 470, 512, 598, 854, 982, 1014}))
+    return false;
   const int special = fields.a();  // the low half of the register's number comes first
-  switch (extended) {
-    case 339:
-      setTiming(instruction, Unit::kSystem, Kind::kSystem, 1, 1);
-      instruction.serialized = special == 1;
-      instruction.sources[0] = special == 8 ? kLink : special == 9 ? kCount : kCarry;
-      instruction.targets[0] = fields.d();
-      return true;
-    case 467:
-      setTiming(instruction, Unit::kSystem, Kind::kSystem, 2, 2);
-      instruction.serialized = special == 1;
-      instruction.sources[0] = fields.d();
-      instruction.targets[0] = special == 8 ? kLink : special == 9 ? kCount : kCarry;
-      return true;
-    case 19:
-    case 144:
-    case 371:
-    case 512:
-      setTiming(instruction, Unit::kSystem, Kind::kSystem, 1, 1);
-      instruction.serialized = true;
-      instruction.targets[0] = extended == 144 ? std::uint8_t{kFirstCondition} : fields.d();
-      return true;
-    case 1014:
-    case 278:
-    case 246:
-    case 86:
-    case 54:
-    case 470:
-    case 982:
-    case 598:
-    case 854:
-      setTiming(instruction, Unit::kLoadStore, Kind::kStore, 3, 6);
-      instruction.serialized = true;
-      return true;
-    default:
-      return false;
+  if (extended == 339 || extended == 467) {
+    const bool reads = extended == 339;
+    const auto named = static_cast<std::uint8_t>(special == 8   ? kLink
+                                                 : special == 9 ? kCount
+                                                                : kCarry);
+    setTiming(instruction, Unit::kSystem, Kind::kSystem, reads ? 1 : 2, reads ? 1 : 2);
+    instruction.serialized = special == 1;
+    instruction.sources[0] = reads ? named : fields.d();
+    instruction.targets[0] = reads ? fields.d() : named;
+    return true;
   }
+  instruction.serialized = true;
+  if (isOneOf(extended, {19, 144, 371, 512})) {
+    setTiming(instruction, Unit::kSystem, Kind::kSystem, 1, 1);
+    instruction.targets[0] = extended == 144 ? std::uint8_t{kFirstCondition} : fields.d();
+    return true;
+  }
+  setTiming(instruction, Unit::kLoadStore, Kind::kStore, 3, 6);
+  return true;
 }
 
 /// Opcode 31.
@@ -227,51 +170,34 @@ void decodeExtended(const Fields& fields, Instruction& instruction) {
       decodeArithmetic(fields, instruction))
     return;
   // Logic, shifts, signs, leading zeros: from D and B to A.
-  const bool one_source = extended == 26 || extended == 922 || extended == 954 || extended == 824;
-  instruction.sources = {fields.d(), one_source ? std::uint8_t{kNone} : fields.b(), kNone, kNone};
-  const bool carry = extended == 792 || extended == 824;
-  instruction.targets = {fields.a(), carry ? std::uint8_t{kCarry} : std::uint8_t{kNone},
-                         fields.record() ? std::uint8_t{kFirstCondition} : std::uint8_t{kNone}};
+  const bool one_source = isOneOf(extended, {26, 824, 922, 954});
+  instruction.sources = {fields.d(), registerIf(!one_source, fields.b()), kNone, kNone};
+  instruction.targets = {fields.a(), registerIf(isOneOf(extended, {792, 824}), kCarry),
+                         registerIf(fields.record(), kFirstCondition)};
 }
 
 /// Opcodes 59 and 63 with three operands. False: another instruction.
 bool decodeFloatArithmetic(const Fields& fields, Instruction& instruction) {
   const bool single = fields.bits(0, 6) == 59;
-  const int multiply_latency = single ? 3 : 4;
-  const int multiply_occupancy = single ? 1 : 2;
   const int extended = fields.bits(26, 5);
-  switch (extended) {
-    case 18:
-      setTiming(instruction, Unit::kFloat, Kind::kFloatDivide, single ? 17 : 31, single ? 17 : 31);
-      break;
-    case 20:
-    case 21:
-      setTiming(instruction, Unit::kFloat, Kind::kFloatAdd, 3, 1);
-      break;
-    case 25:
-    case 28:
-    case 29:
-    case 30:
-    case 31:
-      setTiming(instruction, Unit::kFloat, Kind::kFloatMultiply, multiply_latency,
-                multiply_occupancy);
-      break;
-    case 24:
-      setTiming(instruction, Unit::kFloat, Kind::kFloatOther, 10, 10);
-      break;
-    case 23:
-    case 26:
-      setTiming(instruction, Unit::kFloat, Kind::kFloatOther, 3, 1);
-      break;
-    default:
-      return false;
-  }
+  const bool multiplies = extended == 25 || extended >= 28;
+  if (extended == 18)
+    setTiming(instruction, Unit::kFloat, Kind::kFloatDivide, single ? 17 : 31, single ? 17 : 31);
+  else if (extended == 20 || extended == 21)
+    setTiming(instruction, Unit::kFloat, Kind::kFloatAdd, 3, 1);
+  else if (multiplies)
+    setTiming(instruction, Unit::kFloat, Kind::kFloatMultiply, single ? 3 : 4, single ? 1 : 2);
+  else if (extended == 24)
+    setTiming(instruction, Unit::kFloat, Kind::kFloatOther, 10, 10);
+  else if (extended == 23 || extended == 26)
+    setTiming(instruction, Unit::kFloat, Kind::kFloatOther, 3, 1);
+  else
+    return false;
   const bool uses_a = extended != 24 && extended != 26;
-  const bool uses_c = extended == 23 || extended >= 25;
-  instruction.sources = {uses_a ? fields.floatRegister(11) : std::uint8_t{kNone},
-                         extended == 25 ? std::uint8_t{kNone} : fields.floatRegister(16),
-                         uses_c && extended != 26 ? fields.floatRegister(21) : std::uint8_t{kNone},
-                         kNone};
+  const bool uses_c = extended == 23 || multiplies;
+  instruction.sources = {registerIf(uses_a, fields.floatRegister(11)),
+                         registerIf(extended != 25, fields.floatRegister(16)),
+                         registerIf(uses_c, fields.floatRegister(21)), kNone};
   instruction.targets[0] = fields.floatRegister(6);
   return true;
 }
@@ -279,13 +205,12 @@ bool decodeFloatArithmetic(const Fields& fields, Instruction& instruction) {
 void decodeFloat(const Fields& fields, Instruction& instruction) {
   const int extended = fields.bits(21, 10);
   const bool compares = extended == 0 || extended == 32;
-  const bool status = extended == 583 || extended == 711 || extended == 70 || extended == 38 ||
-                      extended == 134 || extended == 64;
+  const bool status = isOneOf(extended, {38, 64, 70, 134, 583, 711});
   if (!compares && !status && decodeFloatArithmetic(fields, instruction)) return;
   setTiming(instruction, Unit::kFloat, Kind::kFloatOther, 3, 1);
   instruction.serialized = status;
-  instruction.sources = {compares ? fields.floatRegister(11) : std::uint8_t{kNone},
-                         fields.floatRegister(16), kNone, kNone};
+  instruction.sources = {registerIf(compares, fields.floatRegister(11)), fields.floatRegister(16),
+                         kNone, kNone};
   instruction.targets[0] = compares ? fields.conditionField(6) : fields.floatRegister(6);
 }
 

@@ -44,6 +44,10 @@ const char* const kKindNames[] = {"integer",      "multiply",    "divide",    "l
                                   "store",        "branch",      "float_add", "float_multiply",
                                   "float_divide", "float_other", "system"};
 constexpr int kKinds = static_cast<int>(Kind::kCount);
+enum Event { kFetchMiss, kLoadMiss, kStoreMiss, kLevel2Miss, kWriteBack, kCondition, kUnforeseen };
+const char* const kEventNames[] = {"fetch_misses", "load_misses", "store_misses", "level2_misses",
+                                   "write_backs",  "conditions",  "unforeseen"};
+constexpr int kEvents = 7;
 
 /// Instructions up to a branch, as QEMU translates and executes them.
 struct Block {
@@ -58,13 +62,7 @@ struct Block {
 struct Counts {
   std::uint64_t instructions = 0;
   std::uint64_t kinds[kKinds] = {};
-  std::uint64_t fetch_misses = 0;
-  std::uint64_t load_misses = 0;
-  std::uint64_t store_misses = 0;
-  std::uint64_t level2_misses = 0;
-  std::uint64_t write_backs = 0;
-  std::uint64_t conditions = 0;
-  std::uint64_t unforeseen = 0;
+  std::uint64_t events[kEvents] = {};
   Cycle cycles[kModels] = {};
 };
 
@@ -99,8 +97,7 @@ class Stages {
 class Model {
  public:
   Stages stages;
-
-  void sample(std::uint64_t period) { period_ = period; }
+  std::uint64_t period = 0;  ///< instructions; 0: all are measured
 
   void access(const Instruction& instruction, std::uint32_t address, std::uint32_t bytes) {
     if (part_ != Part::kSkipped) accesses_.push_back({&instruction, address, bytes});
@@ -128,10 +125,10 @@ class Model {
   static constexpr std::uint64_t kPartInstructions = 500000;
 
   Part nextPart(const Block& block) {
-    if (period_ == 0) return Part::kMeasured;
+    if (period == 0) return Part::kMeasured;
     position_ += block.instructions.size();
-    if (position_ >= period_) position_ -= period_;
-    const std::uint64_t left = period_ - position_;
+    if (position_ >= period) position_ -= period;
+    const std::uint64_t left = period - position_;
     if (left > 2 * kPartInstructions) return Part::kSkipped;
     return left > kPartInstructions ? Part::kWarming : Part::kMeasured;
   }
@@ -168,8 +165,8 @@ class Model {
     fetched_line_ = line;
     const Found found = caches_.fetch(address);
     if (found.level1) return;
-    ++counts.fetch_misses;
-    if (!found.level2) ++counts.level2_misses;
+    ++counts.events[kFetchMiss];
+    if (!found.level2) ++counts.events[kLevel2Miss];
     for (Processor& processor : processors_) processor.missFetch(found);
   }
 
@@ -177,8 +174,8 @@ class Model {
     bool predicted = true;
     if (instruction.conditional) {
       predicted = predictor_.predict(address, taken);
-      ++counts.conditions;
-      if (!predicted) ++counts.unforeseen;
+      ++counts.events[kCondition];
+      if (!predicted) ++counts.events[kUnforeseen];
     }
     const bool cached = taken && !instruction.indirect && predictor_.findTarget(address);
     for (Processor& processor : processors_)
@@ -203,9 +200,9 @@ class Model {
     const Found found = caches_.data(address, store);
     data_.push_back({address / 8, address / Caches::kLineBytes, found});
     if (found.level1) return;
-    ++(store ? counts.store_misses : counts.load_misses);
-    if (!found.level2) ++counts.level2_misses;
-    if (found.writes_back) ++counts.write_backs;
+    ++counts.events[store ? kStoreMiss : kLoadMiss];
+    if (!found.level2) ++counts.events[kLevel2Miss];
+    if (found.writes_back) ++counts.events[kWriteBack];
   }
 
   Processor processors_[kModels] = {Processor(kAssumptions[0]), Processor(kAssumptions[1]),
@@ -213,7 +210,6 @@ class Model {
   Caches caches_;
   Predictor predictor_;
   Counts unmeasured_;
-  std::uint64_t period_ = 0;    ///< instructions; 0: all are measured
   std::uint64_t position_ = 0;  ///< in the period
   Part part_ = Part::kMeasured;
   const Block* previous_ = nullptr;
@@ -243,14 +239,14 @@ void onTranslation(std::uint64_t, qemu_plugin_tb* translation) {
   blocks.push_back(std::make_unique<Block>());
   Block& block = *blocks.back();
   block.address = static_cast<std::uint32_t>(qemu_plugin_tb_vaddr(translation));
-  const std::size_t count = qemu_plugin_tb_n_insns(translation);
-  for (std::size_t i = 0; i < count; ++i)
-    block.instructions.push_back(decode(wordOf(qemu_plugin_tb_get_insn(translation, i))));
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!block.instructions[i].memory) continue;
-    qemu_plugin_register_vcpu_mem_cb(qemu_plugin_tb_get_insn(translation, i), onAccess,
-                                     QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW,
-                                     &block.instructions[i]);
+  block.instructions.resize(qemu_plugin_tb_n_insns(translation));
+  for (std::size_t i = 0; i < block.instructions.size(); ++i) {
+    qemu_plugin_insn* const translated = qemu_plugin_tb_get_insn(translation, i);
+    Instruction& instruction = block.instructions[i];
+    instruction = decode(wordOf(translated));
+    if (instruction.memory)
+      qemu_plugin_register_vcpu_mem_cb(translated, onAccess, QEMU_PLUGIN_CB_NO_REGS,
+                                       QEMU_PLUGIN_MEM_RW, &instruction);
   }
   qemu_plugin_register_vcpu_tb_exec_cb(translation, onBlock, QEMU_PLUGIN_CB_NO_REGS, &block);
 }
@@ -260,9 +256,8 @@ void printHeader() {
   for (const Assumptions& assumptions : kAssumptions)
     std::fprintf(stderr, " cycles_%s", assumptions.name);
   for (const char* name : kKindNames) std::fprintf(stderr, " %s", name);
-  std::fprintf(stderr,
-               " fetch_misses load_misses store_misses level2_misses write_backs conditions"
-               " unforeseen\n");
+  for (const char* name : kEventNames) std::fprintf(stderr, " %s", name);
+  std::fprintf(stderr, "\n");
 }
 
 /// Prints a stage; counts of the measured parts are scaled to all instructions.
@@ -276,10 +271,7 @@ void printStage(const std::string& name, const Counts& counts) {
   std::fprintf(stderr, "%s %.0f", name.c_str(), static_cast<double>(counts.instructions));
   for (const Cycle cycles : counts.cycles) print(cycles);
   for (const std::uint64_t count : counts.kinds) print(count);
-  for (const std::uint64_t count :
-       {counts.fetch_misses, counts.load_misses, counts.store_misses, counts.level2_misses,
-        counts.write_backs, counts.conditions, counts.unforeseen})
-    print(count);
+  for (const std::uint64_t count : counts.events) print(count);
   std::fprintf(stderr, "\n");
 }
 
@@ -302,7 +294,7 @@ __attribute__((visibility("default"))) int qemu_plugin_install(std::uint64_t id,
   for (int i = 0; i < count; ++i) {
     char* end = nullptr;
     if (std::strncmp(arguments[i], "period=", 7) == 0) {
-      model.sample(std::strtoul(arguments[i] + 7, nullptr, 10));
+      model.period = std::strtoul(arguments[i] + 7, nullptr, 10);
       continue;
     }
     if (std::strncmp(arguments[i], "entry=", 6) != 0) return 1;

@@ -8,57 +8,31 @@ namespace {
 
 constexpr int kFetchWidth = 4;
 constexpr std::uint32_t kNoLine = ~0U;
-// Places in units_.
-enum Place : int { kInteger1, kInteger2, kFloatPlace, kLoadStorePlace, kSystemPlace };
 
 Cycle cycles(int count) { return static_cast<Cycle>(count); }
 
 }  // namespace
 
 void Processor::missFetch(const Found& found) {
-  fetching_ = std::max(fetching_, read(fetching_, {0, kNoLine, found}));
-  fetched_in_cycle_ = 0;
+  fetch_.moveTo(std::max(fetch_.cycle, read(fetch_.cycle, {0, kNoLine, found})));
 }
 
 /// The cycle in which the next instruction enters the instruction queue.
 Cycle Processor::fetchOne() {
   const Cycle room = dispatches_[(count_ - kQueue) % kRing];
-  if (room > fetching_) {
-    fetching_ = room;
-    fetched_in_cycle_ = 0;
-  }
-  const Cycle fetched = fetching_;
-  if (++fetched_in_cycle_ == kFetchWidth) {
-    ++fetching_;
-    fetched_in_cycle_ = 0;
-  }
+  if (room > fetch_.cycle) fetch_.moveTo(room);
+  const Cycle fetched = fetch_.cycle;
+  if (++fetch_.taken == kFetchWidth) fetch_.moveTo(fetched + 1);
   return fetched;
 }
 
 Cycle Processor::dispatch(Cycle earliest) {
-  const Cycle time =
-      std::max({earliest, dispatched_, completions_[(dispatched_count_ - kQueue) % kRing]});
-  if (time > dispatched_) {
-    dispatched_ = time;
-    dispatched_in_cycle_ = 0;
-  } else if (dispatched_in_cycle_ >= assumptions_.width) {
-    ++dispatched_;
-    dispatched_in_cycle_ = 0;
-  }
-  ++dispatched_in_cycle_;
-  return dispatched_;
+  const Cycle room = completions_[(dispatched_count_ - kQueue) % kRing];
+  return dispatch_.take(std::max(earliest, room), assumptions_.width);
 }
 
 void Processor::complete(Cycle finished) {
-  if (finished > completed_) {
-    completed_ = finished;
-    completed_in_cycle_ = 0;
-  } else if (completed_in_cycle_ >= assumptions_.width) {
-    ++completed_;
-    completed_in_cycle_ = 0;
-  }
-  ++completed_in_cycle_;
-  completions_[dispatched_count_++ % kRing] = completed_;
+  completions_[dispatched_count_++ % kRing] = completion_.take(finished, assumptions_.width);
 }
 
 Cycle Processor::read(Cycle time, const DataAccess& access) {
@@ -82,20 +56,11 @@ Cycle Processor::readyTime(const Instruction& instruction) const {
 }
 
 /// Simple integer instructions run in the unit that is free first.
-int Processor::chooseUnit(const Instruction& instruction) const {
-  switch (instruction.unit) {
-    case Unit::kFirstInteger:
-      return kInteger1;
-    case Unit::kFloat:
-      return kFloatPlace;
-    case Unit::kLoadStore:
-      return kLoadStorePlace;
-    case Unit::kSystem:
-      return kSystemPlace;
-    default:
-      break;
-  }
-  return units_[kInteger1].free < units_[kInteger2].free ? kInteger1 : kInteger2;
+Unit Processor::chooseUnit(const Instruction& instruction) const {
+  if (instruction.unit != Unit::kInteger) return instruction.unit;
+  const auto freeOf = [this](Unit unit) { return units_[static_cast<std::size_t>(unit)].free; };
+  return freeOf(Unit::kFirstInteger) < freeOf(Unit::kInteger) ? Unit::kFirstInteger
+                                                              : Unit::kInteger;
 }
 
 /// A load of what a queued store writes starts after that store.
@@ -125,7 +90,7 @@ void Processor::completeStore(const DataAccess& access) {
   const Cycle last = stored_[(store_count_ - 1) % kRing];
   stored_words_[store_count_ % kRing] = access.double_word;
   Cycle& stored = stored_[store_count_++ % kRing];
-  const Cycle begin = std::max(completed_, last) + 1;
+  const Cycle begin = std::max(completion_.cycle, last) + 1;
   if (!access.found.level1) {
     read(begin, access);
     stored = assumptions_.level2 && access.found.level2 ? begin + cycles(assumptions_.level2_cycles)
@@ -142,9 +107,7 @@ void Processor::holdDispatch(const Instruction& instruction, Cycle start, Cycle 
   Cycle held = 0;
   if (multiple || (missed && !assumptions_.overlaps)) held = finish;
   if (!assumptions_.overlaps) held = std::max(held, start - 1);
-  if (held <= dispatched_) return;
-  dispatched_ = held;
-  dispatched_in_cycle_ = 0;
+  if (held > dispatch_.cycle) dispatch_.moveTo(held);
 }
 
 void Processor::execute(const Instruction& instruction, std::span<const DataAccess> accesses) {
@@ -157,7 +120,7 @@ void Processor::execute(const Instruction& instruction, std::span<const DataAcce
   Cycle start = std::max({dispatched + 1, readyTime(instruction), unit.free});
   const bool serialized =
       instruction.serialized || (instruction.uses_carry && assumptions_.carry_serializes);
-  if (serialized) start = std::max(start, completed_ + 1);
+  if (serialized) start = std::max(start, completion_.cycle + 1);
   int latency = instruction.latency;
   int occupancy = instruction.occupancy;
   if (instruction.kind == Kind::kMultiply)
@@ -197,21 +160,12 @@ void Processor::branch(const Instruction& instruction, bool taken, bool predicte
   if (resolved > time) {
     time = std::max(time, unresolved_);  // one predicted branch at a time
     unresolved_ = std::max(unresolved_, resolved);
-    if (!predicted && resolved > time) {
-      fetching_ = resolved + 1;
-      fetched_in_cycle_ = 0;
-      return;
-    }
+    if (!predicted && resolved > time) return fetch_.moveTo(resolved + 1);
   }
-  if (!taken) {
-    if (time > fetched + 1 && time > fetching_) {
-      fetching_ = time;
-      fetched_in_cycle_ = 0;
-    }
-    return;
-  }
-  fetching_ = time + (target_cached && !instruction.indirect ? 0 : 1);
-  fetched_in_cycle_ = 0;
+  if (taken)
+    fetch_.moveTo(time + (target_cached && !instruction.indirect ? 0 : 1));
+  else if (time > fetched + 1 && time > fetch_.cycle)
+    fetch_.moveTo(time);
 }
 
 }  // namespace boresight::cycles

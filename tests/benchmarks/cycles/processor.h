@@ -45,7 +45,7 @@ class Processor {
   void execute(const Instruction& instruction, std::span<const DataAccess> accesses);
   /// A branch, after its direction is known.
   void branch(const Instruction& instruction, bool taken, bool predicted, bool target_cached);
-  Cycle now() const { return dispatched_; }
+  Cycle now() const { return dispatch_.cycle; }
 
  private:
   static constexpr std::size_t kRing = 8;  ///< numbers of instructions modulo this
@@ -61,19 +61,36 @@ class Processor {
   /// Reads a line at `time` or later; when the missing word arrives.
   Cycle read(Cycle time, const DataAccess& access);
   Cycle readyTime(const Instruction& instruction) const;
-  int chooseUnit(const Instruction& instruction) const;
+  Unit chooseUnit(const Instruction& instruction) const;
   Cycle waitForStore(Cycle start, const DataAccess& access) const;
   Cycle load(Cycle start, Cycle finish, std::span<const DataAccess> accesses);
 
+  /// A stage that takes a number of instructions a cycle.
+  struct Stage {
+    Cycle cycle = 0;
+    int taken = 0;  ///< instructions in this cycle
+
+    void moveTo(Cycle time) {
+      cycle = time;
+      taken = 0;
+    }
+    /// The cycle, `earliest` or later, in which the next instruction is taken.
+    Cycle take(Cycle earliest, int width) {
+      if (earliest > cycle)
+        moveTo(earliest);
+      else if (taken >= width)
+        moveTo(cycle + 1);
+      ++taken;
+      return cycle;
+    }
+  };
+
   Assumptions assumptions_;
   std::array<Cycle, kRegisters> ready_{};
-  Cycle fetching_ = 0;  ///< cycle of the next fetch
-  int fetched_in_cycle_ = 0;
-  Cycle dispatched_ = 0;  ///< cycle of the last dispatch
-  int dispatched_in_cycle_ = 0;
+  Stage fetch_;                            ///< at the next fetch
+  Stage dispatch_;                         ///< at the last dispatch
   std::array<Cycle, kRing> dispatches_{};  ///< of the last instructions
-  Cycle completed_ = 0;
-  int completed_in_cycle_ = 0;
+  Stage completion_;
   std::array<Cycle, kRing> completions_{};
   std::uint64_t count_ = 0;             ///< instructions fetched
   std::uint64_t dispatched_count_ = 0;  ///< instructions in the completion queue so far
@@ -81,8 +98,8 @@ class Processor {
     Cycle free = 0;                 ///< accepts the next instruction
     std::array<Cycle, 2> starts{};  ///< of the last two instructions: reservation stations
   };
-  std::array<UnitState, 6> units_{};
-  Cycle unresolved_ = 0;  ///< when the last predicted branch is resolved
+  std::array<UnitState, 6> units_{};  ///< by Unit; kInteger: the second integer unit
+  Cycle unresolved_ = 0;              ///< when the last predicted branch is resolved
   Cycle bus_free_ = 0;
   std::uint32_t pending_line_ = 0;
   Cycle pending_until_ = 0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -54,15 +54,20 @@ cv::Mat ellipseOver(double share, const cv::Mat& silhouette, Random& random) {
   });
 }
 
+/// Gives the covered pixels the gray of `grayAt(x, y)`, row by row.
+template <class GrayAt>
+void paint(const cv::Mat& cover, cv::Mat& picture, GrayAt&& grayAt) {
+  for (int y = 0; y < picture.rows; ++y)
+    for (int x = 0; x < picture.cols; ++x)
+      if (cover.at<std::uint8_t>(y, x) != 0)
+        picture.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(grayAt(x, y));
+}
+
 /// An ellipse of one gray, with a little noise.
 void coverGray(double share, const cv::Mat& silhouette, Random& random, cv::Mat& picture) {
   const cv::Mat cover = ellipseOver(share, silhouette, random);
   const double gray = random.uniform(50.0, 180.0);
-  for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x)
-      if (cover.at<std::uint8_t>(y, x) != 0)
-        picture.at<std::uint8_t>(y, x) =
-            cv::saturate_cast<std::uint8_t>(gray + 1.5 * random.normal());
+  paint(cover, picture, [&](int, int) { return gray + 1.5 * random.normal(); });
 }
 
 /// An ellipse that shows another place of the picture.
@@ -71,41 +76,40 @@ void coverTexture(double share, const cv::Mat& silhouette, Random& random, cv::M
   const int right = static_cast<int>(picture.cols * random.uniform(0.25, 0.75));
   const int down = static_cast<int>(picture.rows * random.uniform(0.25, 0.75));
   const cv::Mat before = picture.clone();
-  for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x)
-      if (cover.at<std::uint8_t>(y, x) != 0)
-        picture.at<std::uint8_t>(y, x) =
-            before.at<std::uint8_t>((y + down) % picture.rows, (x + right) % picture.cols);
+  paint(cover, picture, [&](int x, int y) {
+    return before.at<std::uint8_t>((y + down) % picture.rows, (x + right) % picture.cols);
+  });
+}
+
+/// Fills the band along a line that reaches `far` to either side of a place, between two offsets
+/// from the line.
+void fillBand(const cv::Point2d& place, double angle, double far, std::array<double, 2> offsets,
+              double gray, cv::Mat& picture) {
+  const cv::Point2d along = far * cv::Point2d(std::cos(angle), std::sin(angle));
+  const cv::Point2d across(-std::sin(angle), std::cos(angle));
+  const cv::Point2d first = place + offsets[0] * across;
+  const cv::Point2d second = place + offsets[1] * across;
+  const std::array<cv::Point, 4> corners = {cv::Point(first - along), cv::Point(first + along),
+                                            cv::Point(second + along), cv::Point(second - along)};
+  cv::fillConvexPoly(picture, corners, cv::Scalar(gray));
 }
 
 /// Dark straight bands across the object.
 void coverCables(double share, const cv::Mat& silhouette, Random& random, cv::Mat& picture) {
   const cv::Rect box = cv::boundingRect(silhouette);
   const double size = std::hypot(box.width, box.height);
-  std::vector<std::array<cv::Point2d, 2>> lines(4);
-  for (auto& line : lines) {
-    const cv::Point2d through(placeWithin(silhouette, random));
-    const double angle = random.uniform(0.0, CV_PI);
-    const cv::Point2d reach = 2.0 * size * cv::Point2d(std::cos(angle), std::sin(angle));
-    line = {through - reach, through + reach};
+  std::array<std::pair<cv::Point2d, double>, 4> lines;  // a place and an angle of each
+  for (auto& [through, angle] : lines) {
+    through = placeWithin(silhouette, random);
+    angle = random.uniform(0.0, CV_PI);
   }
   const cv::Mat cover = coverOfShare(share, silhouette, 0.5 * size, [&](double width) {
     cv::Mat drawn = cv::Mat::zeros(silhouette.size(), CV_8U);
-    for (const auto& line : lines) {
-      const cv::Point2d along = (line[1] - line[0]) / cv::norm(line[1] - line[0]);
-      const cv::Point2d aside = 0.5 * width * cv::Point2d(-along.y, along.x);
-      const std::array<cv::Point, 4> corners = {
-          cv::Point(line[0] - aside), cv::Point(line[1] - aside), cv::Point(line[1] + aside),
-          cv::Point(line[0] + aside)};
-      cv::fillConvexPoly(drawn, corners, cv::Scalar(255));
-    }
+    for (const auto& [through, angle] : lines)
+      fillBand(through, angle, 2.0 * size, {-0.5 * width, 0.5 * width}, 255.0, drawn);
     return drawn;
   });
-  for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x)
-      if (cover.at<std::uint8_t>(y, x) != 0)
-        picture.at<std::uint8_t>(y, x) =
-            cv::saturate_cast<std::uint8_t>(30.0 + 1.5 * random.normal());
+  paint(cover, picture, [&](int, int) { return 30.0 + 1.5 * random.normal(); });
 }
 
 double scaleOf(const cv::Mat& picture) { return picture.cols / 2048.0; }
@@ -126,15 +130,9 @@ void shade(const cv::Mat& lit, double left, cv::Mat& picture) {
 void shadeStraight(double left, const cv::Mat& silhouette, Random& random, cv::Mat& picture) {
   const cv::Point place = placeWithin(silhouette, random);
   const double angle = random.uniform(0.0, 2.0 * CV_PI);
-  const cv::Point2d along(std::cos(angle), std::sin(angle));
-  const cv::Point2d across(-along.y, along.x);
   const double far = 2.0 * (picture.cols + picture.rows);
-  const cv::Point2d base(place);
-  const std::array<cv::Point, 4> corners = {
-      cv::Point(base - far * along), cv::Point(base + far * along),
-      cv::Point(base + far * along + far * across), cv::Point(base - far * along + far * across)};
   cv::Mat lit(picture.size(), CV_8U, cv::Scalar(255));
-  cv::fillConvexPoly(lit, corners, cv::Scalar(0));
+  fillBand(place, angle, far, {0.0, far}, 0.0, lit);
   shade(lit, left, picture);
 }
 
@@ -150,7 +148,7 @@ void shadeCurved(double left, const cv::Mat& silhouette, Random& random, cv::Mat
 
 /// The gain that takes this share of the silhouette to saturation, and a twentieth of the light
 /// beyond saturation spread about.
-void overexpose(double share, const cv::Mat& silhouette, cv::Mat& picture) {
+void overexpose(double share, const cv::Mat& silhouette, Random&, cv::Mat& picture) {
   std::vector<std::uint8_t> values;
   for (int y = 0; y < picture.rows; ++y)
     for (int x = 0; x < picture.cols; ++x)
@@ -169,12 +167,12 @@ void overexpose(double share, const cv::Mat& silhouette, cv::Mat& picture) {
 }
 
 /// About the mean of the silhouette; gray levels are whole numbers, so that small steps are lost.
-void flatten(double share, const cv::Mat& silhouette, cv::Mat& picture) {
+void flatten(double share, const cv::Mat& silhouette, Random&, cv::Mat& picture) {
   const double mean = cv::mean(picture, silhouette)[0];
   picture.convertTo(picture, CV_8U, share, (1.0 - share) * mean);
 }
 
-void dust(double grade, Random& random, cv::Mat& picture) {
+void dust(double grade, const cv::Mat&, Random& random, cv::Mat& picture) {
   const double scale = scaleOf(picture);
   picture.convertTo(picture, CV_8U, 1.0 - 0.8 * grade, 0.8 * grade * 110.0);
   const int specks = static_cast<int>(6000.0 * grade * scale * scale);
@@ -191,7 +189,7 @@ void dust(double grade, Random& random, cv::Mat& picture) {
   }
 }
 
-void blurAlong(double length_px, Random& random, cv::Mat& picture) {
+void blurAlong(double length_px, const cv::Mat&, Random& random, cv::Mat& picture) {
   const double angle = random.uniform(0.0, CV_PI);
   const double half = 0.5 * length_px * scaleOf(picture);
   const int reach = static_cast<int>(std::ceil(half)) + 1;
@@ -211,7 +209,7 @@ void blurAlong(double length_px, Random& random, cv::Mat& picture) {
   cv::filter2D(picture, picture, CV_8U, kernel);
 }
 
-void blurDisc(double radius_px, cv::Mat& picture) {
+void blurDisc(double radius_px, const cv::Mat&, Random&, cv::Mat& picture) {
   const double radius = radius_px * scaleOf(picture);
   const int reach = static_cast<int>(std::ceil(radius)) + 1;
   cv::Mat kernel = cv::Mat::zeros(2 * reach + 1, 2 * reach + 1, CV_32F);
@@ -222,7 +220,7 @@ void blurDisc(double radius_px, cv::Mat& picture) {
   cv::filter2D(picture, picture, CV_8U, kernel / cv::sum(kernel)[0]);
 }
 
-void killColumns(double columns, Random& random, cv::Mat& picture) {
+void killColumns(double columns, const cv::Mat&, Random& random, cv::Mat& picture) {
   const int count = static_cast<int>(columns * scaleOf(picture) + 0.5);
   for (int i = 0; i < count; ++i) {
     const int x = static_cast<int>(random.below(static_cast<std::uint32_t>(picture.cols)));
@@ -230,7 +228,7 @@ void killColumns(double columns, Random& random, cv::Mat& picture) {
   }
 }
 
-void killPixels(double share, Random& random, cv::Mat& picture) {
+void killPixels(double share, const cv::Mat&, Random& random, cv::Mat& picture) {
   const int count = static_cast<int>(share * picture.cols * picture.rows);
   for (int i = 0; i < count; ++i) {
     const auto x = static_cast<int>(random.below(static_cast<std::uint32_t>(picture.cols)));
@@ -239,7 +237,8 @@ void killPixels(double share, Random& random, cv::Mat& picture) {
   }
 }
 
-void addNoise(double sigma, bool per_row, Random& random, cv::Mat& picture) {
+template <bool per_row>
+void addNoise(double sigma, const cv::Mat&, Random& random, cv::Mat& picture) {
   for (int y = 0; y < picture.rows; ++y) {
     const double row = sigma * random.normal();
     for (int x = 0; x < picture.cols; ++x) {
@@ -249,7 +248,7 @@ void addNoise(double sigma, bool per_row, Random& random, cv::Mat& picture) {
   }
 }
 
-void compress(double loss, cv::Mat& picture) {
+void compress(double loss, const cv::Mat&, Random&, cv::Mat& picture) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, static_cast<int>(100.0 - loss)});
   picture = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
@@ -259,22 +258,22 @@ void compress(double loss, cv::Mat& picture) {
 
 const std::vector<DegradationKind>& degradationKinds() {
   static const std::vector<DegradationKind> kinds = {
-      {"plain", "", {0}},
-      {"gray_patch", "of the silhouette", {0.1, 0.2, 0.3, 0.4, 0.5}},
-      {"texture_patch", "of the silhouette", {0.1, 0.2, 0.3, 0.4, 0.5}},
-      {"cables", "of the silhouette", {0.1, 0.2, 0.3, 0.4, 0.5}},
-      {"straight_shadow", "light left", {0.5, 0.25, 0.1}},
-      {"curved_shadow", "light left", {0.5, 0.25, 0.1}},
-      {"overexposed", "of the silhouette", {0.1, 0.25, 0.5, 0.75, 0.9}},
-      {"contrast", "left", {0.5, 0.25, 0.1, 0.05}},
-      {"dust", "grade", {0.3, 0.6, 0.9}},
-      {"motion", "px", {4, 8, 16, 32}},
-      {"defocus", "px", {2, 4, 8, 16}},
-      {"dead_columns", "columns", {4, 16, 64}},
-      {"hot_pixels", "of all", {0.001, 0.01, 0.05}},
-      {"row_noise", "gray", {3, 10}},
-      {"noise", "gray", {10, 25, 50}},
-      {"jpeg", "100 - quality", {80, 90, 95}},
+      {"plain", "", {0}, [](double, const cv::Mat&, Random&, cv::Mat&) {}},
+      {"gray_patch", "of the silhouette", {0.1, 0.2, 0.3, 0.4, 0.5}, coverGray},
+      {"texture_patch", "of the silhouette", {0.1, 0.2, 0.3, 0.4, 0.5}, coverTexture},
+      {"cables", "of the silhouette", {0.1, 0.2, 0.3, 0.4, 0.5}, coverCables},
+      {"straight_shadow", "light left", {0.5, 0.25, 0.1}, shadeStraight},
+      {"curved_shadow", "light left", {0.5, 0.25, 0.1}, shadeCurved},
+      {"overexposed", "of the silhouette", {0.1, 0.25, 0.5, 0.75, 0.9}, overexpose},
+      {"contrast", "left", {0.5, 0.25, 0.1, 0.05}, flatten},
+      {"dust", "grade", {0.3, 0.6, 0.9}, dust},
+      {"motion", "px", {4, 8, 16, 32}, blurAlong},
+      {"defocus", "px", {2, 4, 8, 16}, blurDisc},
+      {"dead_columns", "columns", {4, 16, 64}, killColumns},
+      {"hot_pixels", "of all", {0.001, 0.01, 0.05}, killPixels},
+      {"row_noise", "gray", {3, 10}, addNoise<true>},
+      {"noise", "gray", {10, 25, 50}, addNoise<false>},
+      {"jpeg", "100 - quality", {80, 90, 95}, compress},
   };
   return kinds;
 }
@@ -296,29 +295,6 @@ cv::Mat silhouette(const Camera& camera, const MeshView& mesh, const Pose& camer
     if (seen) cv::fillConvexPoly(drawn, corners, cv::Scalar(255));
   }
   return drawn;
-}
-
-void degrade(const Degradation& what, const cv::Mat& silhouette, std::uint64_t seed,
-             cv::Mat& picture) {
-  Random random(seed);
-  const double strength = what.strength;
-  if (what.kind == "plain") return;
-  if (what.kind == "gray_patch") return coverGray(strength, silhouette, random, picture);
-  if (what.kind == "texture_patch") return coverTexture(strength, silhouette, random, picture);
-  if (what.kind == "cables") return coverCables(strength, silhouette, random, picture);
-  if (what.kind == "straight_shadow") return shadeStraight(strength, silhouette, random, picture);
-  if (what.kind == "curved_shadow") return shadeCurved(strength, silhouette, random, picture);
-  if (what.kind == "overexposed") return overexpose(strength, silhouette, picture);
-  if (what.kind == "contrast") return flatten(strength, silhouette, picture);
-  if (what.kind == "dust") return dust(strength, random, picture);
-  if (what.kind == "motion") return blurAlong(strength, random, picture);
-  if (what.kind == "defocus") return blurDisc(strength, picture);
-  if (what.kind == "dead_columns") return killColumns(strength, random, picture);
-  if (what.kind == "hot_pixels") return killPixels(strength, random, picture);
-  if (what.kind == "row_noise") return addNoise(strength, true, random, picture);
-  if (what.kind == "noise") return addNoise(strength, false, random, picture);
-  if (what.kind == "jpeg") return compress(strength, picture);
-  throw std::invalid_argument("no degradation is called " + what.kind);
 }
 
 }  // namespace boresight::test

@@ -2,29 +2,25 @@
 // Pictures made worse in stated ways, the same way each time.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
+#include "core/base/random.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 
 namespace boresight::test {
 
-/// One way to make a picture worse, and how much.
-struct Degradation {
-  std::string kind;
-  double strength = 0.0;  ///< what it means is said by its kind, see `kinds()`
-};
-
 /// What a kind does, and the strengths that are tried.
 struct DegradationKind {
   std::string name;
   std::string strength;  ///< what the number is
   std::vector<double> tried;
+  /// Changes a gray picture of an object; the generator decides places and directions.
+  void (*apply)(double strength, const cv::Mat& silhouette, Random& random, cv::Mat& picture);
 };
 
 /// In the order of the table:
@@ -42,9 +38,5 @@ const std::vector<DegradationKind>& degradationKinds();
 
 /// Pixels within the projection of the mesh's faces.
 cv::Mat silhouette(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station);
-
-/// Changes a gray picture. `seed` decides places and directions.
-void degrade(const Degradation& what, const cv::Mat& silhouette, std::uint64_t seed,
-             cv::Mat& picture);
 
 }  // namespace boresight::test

@@ -37,6 +37,9 @@ struct Arguments {
   std::string runs;
 };
 
+/// A kind of degradation and its strength.
+using Degradation = std::pair<std::string, double>;
+
 /// What became of the runs of one kind and strength.
 struct Row {
   int runs = 0;
@@ -110,110 +113,101 @@ class Measurement {
     }
   }
 
-  void print() const;
+  void print() const {
+    std::puts("| kind | strength | runs | success | false | of these gross | refused | error px |");
+    std::puts("|---|---|---|---|---|---|---|---|");
+    for (const DegradationKind& kind : degradationKinds()) {
+      for (const double strength : kind.tried) {
+        const auto found = rows_.find({kind.name, strength});
+        if (found == rows_.end()) continue;
+        const Row& row = found->second;
+        std::string refused;
+        for (const auto& [status, count] : row.refused)
+          refused += (refused.empty() ? "" : ", ") + std::to_string(count) + " " + status;
+        std::vector<double> errors = row.errors_px;
+        std::sort(errors.begin(), errors.end());
+        std::printf("| %s | %g %s | %d | %d | %d | %d | %s | %.2f |\n", kind.name.c_str(), strength,
+                    kind.strength.c_str(), row.runs, row.successes, row.wrong, row.gross,
+                    refused.c_str(), errors.empty() ? 0.0 : errors[errors.size() / 2]);
+      }
+    }
+  }
 
  private:
   void measure(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
-               Scenes& scenes);
+               Scenes& scenes) {
+    const sessions::GrayImage image = sessions::readCaseImage(dataset, dataset_case);
+    const cv::Mat picture(image.height, image.width, CV_8U,
+                          const_cast<std::uint8_t*>(image.pixels.data()));
+    const cv::Mat object = silhouette(dataset.cameras.at(dataset_case.camera),
+                                      sceneOf(dataset, dataset_case.station, scenes).view(),
+                                      *dataset_case.truth_camera_from_station);
+    const sessions::SceneMesh sought = soughtScene(dataset, dataset_case, arguments_.wrong, scenes);
+    for (const DegradationKind& kind : degradationKinds()) {
+      if (!arguments_.kinds.empty() && std::find(arguments_.kinds.begin(), arguments_.kinds.end(),
+                                                 kind.name) == arguments_.kinds.end())
+        continue;
+      for (const double strength : kind.tried) {
+        cv::Mat worse = picture.clone();
+        Random random(seedOf(dataset_case.id + kind.name));
+        kind.apply(strength, object, random, worse);
+        run(dataset, dataset_case, sought, {kind.name, strength}, worse);
+      }
+    }
+  }
+
   void run(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
-           const sessions::SceneMesh& scene, const Degradation& what, const cv::Mat& picture);
+           const sessions::SceneMesh& scene, const Degradation& what, const cv::Mat& picture) {
+    const std::string& mesh_of =
+        arguments_.wrong.size() > 1 ? arguments_.wrong : dataset_case.station;
+    const sessions::Station& station = dataset.stations.at(mesh_of);
+    LocalizationProblem problem;
+    problem.image = {picture.data, picture.cols, picture.rows,
+                     static_cast<std::ptrdiff_t>(picture.step)};
+    problem.camera = dataset.cameras.at(dataset_case.camera);
+    problem.mesh = scene.view();
+    problem.camera_from_station_seed = dataset_case.seed_camera_from_station;
+    problem.uncertainty =
+        sessions::seedUncertainty(*dataset_case.uncertainty, dataset_case.seed_camera_from_station,
+                                  matchedBounds(scene.view()).centre());
+    LocalizerOptions options = arguments_.options;
+    if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;
+    const sessions::LocalizationTrace trace =
+        sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kSummary);
+    const sessions::RunResult result = judged(
+        dataset_case, problem.camera, !arguments_.wrong.empty(), scene, station.symmetries, trace);
+    note(result, what, trace, sessions::imageQualityOf(problem).value_or(sessions::ImageQuality{}));
+  }
+
   void note(const sessions::RunResult& result, const Degradation& what,
-            const sessions::LocalizationTrace& trace, const sessions::ImageQuality& quality);
+            const sessions::LocalizationTrace& trace, const sessions::ImageQuality& quality) {
+    Row& row = rows_[what];
+    ++row.runs;
+    const bool success = result.success.value_or(false);
+    if (success) row.errors_px.push_back(result.error->projection_px.value_or(0.0));
+    row.successes += success ? 1 : 0;
+    row.wrong += result.false_positive ? 1 : 0;
+    row.gross += result.gross_false_positive ? 1 : 0;
+    if (!result.completed) ++row.refused[result.status];
+    if (!runs_.is_open()) return;
+    const EdgeSupport& support = trace.support;
+    const auto& [kind, strength] = what;
+    runs_ << result.case_id << '\t' << kind << '\t' << strength << '\t' << arguments_.wrong << '\t'
+          << result.status << '\t' << success << '\t' << result.false_positive << '\t'
+          << result.gross_false_positive << '\t' << result.error->projection_px.value_or(-1.0)
+          << '\t' << result.error->normal_mm << '\t' << result.error->lateral_mm << '\t'
+          << result.error->rotation_mrad << '\t' << result.edge_support << '\t'
+          << support.coverage() << '\t' << support.chanceCoverage() << '\t' << support.explanation()
+          << '\t' << support.chanceExplanation() << '\t' << trace.attempts << '\t' << result.digest
+          << '\t' << trace.probability;
+    for (const auto& [name, part] : sessions::kImageQualityParts) runs_ << '\t' << quality.*part;
+    runs_ << std::endl;
+  }
 
   const Arguments& arguments_;
   std::ofstream runs_;
-  std::map<std::pair<std::string, double>, Row> rows_;
+  std::map<Degradation, Row> rows_;
 };
-
-void Measurement::measure(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
-                          Scenes& scenes) {
-  const sessions::GrayImage image = sessions::readCaseImage(dataset, dataset_case);
-  const cv::Mat picture(image.height, image.width, CV_8U,
-                        const_cast<std::uint8_t*>(image.pixels.data()));
-  const cv::Mat object = silhouette(dataset.cameras.at(dataset_case.camera),
-                                    sceneOf(dataset, dataset_case.station, scenes).view(),
-                                    *dataset_case.truth_camera_from_station);
-  const sessions::SceneMesh sought = soughtScene(dataset, dataset_case, arguments_.wrong, scenes);
-  for (const DegradationKind& kind : degradationKinds()) {
-    if (!arguments_.kinds.empty() && std::find(arguments_.kinds.begin(), arguments_.kinds.end(),
-                                               kind.name) == arguments_.kinds.end())
-      continue;
-    for (const double strength : kind.tried) {
-      cv::Mat worse = picture.clone();
-      degrade({kind.name, strength}, object, seedOf(dataset_case.id + kind.name), worse);
-      run(dataset, dataset_case, sought, {kind.name, strength}, worse);
-    }
-  }
-}
-
-void Measurement::run(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
-                      const sessions::SceneMesh& scene, const Degradation& what,
-                      const cv::Mat& picture) {
-  const std::string& mesh_of =
-      arguments_.wrong.size() > 1 ? arguments_.wrong : dataset_case.station;
-  const sessions::Station& station = dataset.stations.at(mesh_of);
-  LocalizationProblem problem;
-  problem.image = {picture.data, picture.cols, picture.rows,
-                   static_cast<std::ptrdiff_t>(picture.step)};
-  problem.camera = dataset.cameras.at(dataset_case.camera);
-  problem.mesh = scene.view();
-  problem.camera_from_station_seed = dataset_case.seed_camera_from_station;
-  problem.uncertainty =
-      sessions::seedUncertainty(*dataset_case.uncertainty, dataset_case.seed_camera_from_station,
-                                matchedBounds(scene.view()).centre());
-  LocalizerOptions options = arguments_.options;
-  if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;
-  const sessions::LocalizationTrace trace =
-      sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kSummary);
-  const sessions::RunResult result = judged(dataset_case, problem.camera, !arguments_.wrong.empty(),
-                                            scene, station.symmetries, trace);
-  note(result, what, trace, sessions::imageQualityOf(problem).value_or(sessions::ImageQuality{}));
-}
-
-void Measurement::note(const sessions::RunResult& result, const Degradation& what,
-                       const sessions::LocalizationTrace& trace,
-                       const sessions::ImageQuality& quality) {
-  Row& row = rows_[{what.kind, what.strength}];
-  ++row.runs;
-  const bool success = result.success.value_or(false);
-  if (success) row.errors_px.push_back(result.error->projection_px.value_or(0.0));
-  row.successes += success ? 1 : 0;
-  row.wrong += result.false_positive ? 1 : 0;
-  row.gross += result.gross_false_positive ? 1 : 0;
-  if (!result.completed) ++row.refused[result.status];
-  if (!runs_.is_open()) return;
-  const EdgeSupport& support = trace.support;
-  runs_ << result.case_id << '\t' << what.kind << '\t' << what.strength << '\t' << arguments_.wrong
-        << '\t' << result.status << '\t' << success << '\t' << result.false_positive << '\t'
-        << result.gross_false_positive << '\t' << result.error->projection_px.value_or(-1.0) << '\t'
-        << result.error->normal_mm << '\t' << result.error->lateral_mm << '\t'
-        << result.error->rotation_mrad << '\t' << result.edge_support << '\t' << support.coverage()
-        << '\t' << support.chanceCoverage() << '\t' << support.explanation() << '\t'
-        << support.chanceExplanation() << '\t' << trace.attempts << '\t' << result.digest << '\t'
-        << trace.probability;
-  for (const auto& [name, part] : sessions::kImageQualityParts) runs_ << '\t' << quality.*part;
-  runs_ << std::endl;
-}
-
-void Measurement::print() const {
-  std::puts("| kind | strength | runs | success | false | of these gross | refused | error px |");
-  std::puts("|---|---|---|---|---|---|---|---|");
-  for (const DegradationKind& kind : degradationKinds()) {
-    for (const double strength : kind.tried) {
-      const auto found = rows_.find({kind.name, strength});
-      if (found == rows_.end()) continue;
-      const Row& row = found->second;
-      std::string refused;
-      for (const auto& [status, count] : row.refused)
-        refused += (refused.empty() ? "" : ", ") + std::to_string(count) + " " + status;
-      std::vector<double> errors = row.errors_px;
-      std::sort(errors.begin(), errors.end());
-      std::printf("| %s | %g %s | %d | %d | %d | %d | %s | %.2f |\n", kind.name.c_str(), strength,
-                  kind.strength.c_str(), row.runs, row.successes, row.wrong, row.gross,
-                  refused.c_str(), errors.empty() ? 0.0 : errors[errors.size() / 2]);
-    }
-  }
-}
 
 void setOption(const std::string& assignment, LocalizerOptions& options) {
   const std::size_t equals = assignment.find('=');
@@ -225,12 +219,11 @@ void setOption(const std::string& assignment, LocalizerOptions& options) {
 Arguments read(const std::vector<std::string>& words) {
   Arguments read;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool named = words[i].starts_with("--");
-    if (!named) {
-      read.datasets.push_back(words[i]);
+    const std::string& name = words[i];
+    if (!name.starts_with("--")) {
+      read.datasets.push_back(name);
       continue;
     }
-    const std::string& name = words[i];
     if (name == "--help")
       throw std::invalid_argument(
           "usage: degraded DATASET ... [--kind KIND] [--half 0|1] [--each N] [--wrong WHICH] "
