@@ -49,12 +49,9 @@ inline bool addPoint(sessions::AnnotatedView& view, const Pose& camera_from_stat
                      Random& random) {
   Eigen::Vector2d pixel;
   if (!project(view.camera, camera_from_station * place_m, pixel)) return false;
-  sessions::PointPair pair;
-  pair.id = sessions::unusedId(view.annotations, 'p');
-  pair.point_in_station_m = place_m;
-  pair.pixel = pixel + gaussian(random, noise_px);
-  pair.sigma_px = sigma_px;
-  view.annotations.points.push_back(pair);
+  view.annotations.points.push_back({sessions::unusedId(view.annotations, 'p'), place_m,
+                                     pixel + gaussian(random, noise_px), sigma_px, true, false,
+                                     ""});
   return true;
 }
 
@@ -69,12 +66,9 @@ inline bool addLine(sessions::AnnotatedView& view, const Pose& camera_from_stati
   if (!project(view.camera, camera_from_station * to_m, line.end)) return false;
   line.start += gaussian(random, noise_px);
   line.end += gaussian(random, noise_px);
-  sessions::LinePair pair;
-  pair.id = sessions::unusedId(view.annotations, 'l');
-  pair.edge = sessions::ModelEdge{start_m, end_m};
-  pair.line = line;
-  pair.sigma_px = sigma_px;
-  view.annotations.lines.push_back(pair);
+  view.annotations.lines.push_back({sessions::unusedId(view.annotations, 'l'),
+                                    sessions::ModelEdge{start_m, end_m}, line, sigma_px, true,
+                                    false, ""});
   return true;
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "tests/sessions/annotation/annotated_scene.h"
 #include "tests/sessions/annotation/random_annotations.h"
@@ -17,20 +19,19 @@ using test::randomFor;
 TEST(BlindAnnotations, BlindRound_KeepsStationPointsWithoutPixels) {
   Random random = randomFor("BlindMarks");
   const Annotations annotations = test::randomAnnotations(random, 12, 12);
-  const Annotations blind = blindAnnotations(annotations);
-  EXPECT_EQ(blind.points.size(), 9u);  // every fourth has no place of the station
-  EXPECT_EQ(blind.lines.size(), 9u);
-  std::size_t i = 0;
-  for (const PointPair& point : annotations.points) {
-    if (!point.point_in_station_m) continue;
-    const PointPair& point_pair = blind.points[i++];
-    EXPECT_EQ(point_pair.id, point.id);
-    EXPECT_EQ(point_pair.point_in_station_m, point.point_in_station_m);
-    EXPECT_FALSE(point_pair.pixel);
-    EXPECT_EQ(point_pair.enabled, point.enabled);
-    EXPECT_FALSE(point_pair.locked);
+  Annotations expected = annotations;
+  std::erase_if(expected.points, [](const PointPair& point) { return !point.point_in_station_m; });
+  std::erase_if(expected.lines, [](const LinePair& line) { return !line.edge; });
+  EXPECT_EQ(expected.points.size() + expected.lines.size(), 18u);  // every fourth has no place
+  for (PointPair& point : expected.points) {
+    point.pixel.reset();
+    point.locked = false;
   }
-  for (const LinePair& line : blind.lines) EXPECT_TRUE(line.edge && !line.line);
+  for (LinePair& line : expected.lines) {
+    line.line.reset();
+    line.locked = false;
+  }
+  EXPECT_EQ(blindAnnotations(annotations), expected);
 }
 
 TEST(BlindAnnotations, RoundIsBlind_UntilEachOfItsPlacesIsSetOrRemoved) {
@@ -71,28 +72,17 @@ TEST(Repeatability, FindsTheSigmaOfTwoAnnotators) {
   }
 }
 
-PointPair point(const std::string& id, const Eigen::Vector2d& pixel) {
-  PointPair point_pair;
-  point_pair.id = id;
-  point_pair.point_in_station_m = Eigen::Vector3d::Zero();
-  point_pair.pixel = pixel;
-  return point_pair;
-}
-
-LinePair line(const std::string& id, const Eigen::Vector2d& start, const Eigen::Vector2d& end) {
-  LinePair line_pair;
-  line_pair.id = id;
-  line_pair.edge = ModelEdge{{0, 0, 0}, {1, 0, 0}};
-  line_pair.line = ImageLine{start, end};
-  return line_pair;
+PointPair point(const std::string& id, const std::optional<Eigen::Vector2d>& pixel) {
+  return {id, Eigen::Vector3d::Zero(), pixel, 1.0, true, false, ""};
 }
 
 TEST(Repeatability, ComparesCommonAnnotations) {
   Annotations first, second;
-  first.points = {point("b", {10, 20}), point("a", {1, 2}), point("half", {1, 1}),
-                  point("alone", {1, 1})};
-  first.points[2].pixel.reset();
-  second.points = {point("a", {4, 6}), point("b", {10, 20}), point("half", {1, 1})};
+  using Eigen::Vector2d;
+  first.points = {point("b", Vector2d(10, 20)), point("a", Vector2d(1, 2)), point("half", {}),
+                  point("alone", Vector2d(1, 1))};
+  second.points = {point("a", Vector2d(4, 6)), point("b", Vector2d(10, 20)),
+                   point("half", Vector2d(1, 1))};
   const Repeatability result = repeatability(first, second);
   ASSERT_EQ(result.annotations.size(), 2u);
   EXPECT_EQ(result.annotations[0].id, "a");
@@ -103,9 +93,12 @@ TEST(Repeatability, ComparesCommonAnnotations) {
 }
 
 TEST(Repeatability, OfALineCountsOnlyWhatIsAcross) {
-  Annotations first, second;
-  first.lines.push_back(line("l1", {0, 0}, {100, 0}));
-  second.lines.push_back(line("l1", {130, 2}, {40, 1}));  // the other way round
+  Annotations first;
+  first.lines.emplace_back().id = "l1";
+  first.lines[0].edge = ModelEdge{{0, 0, 0}, {1, 0, 0}};
+  first.lines[0].line = ImageLine{{0, 0}, {100, 0}};
+  Annotations second = first;
+  second.lines[0].line = ImageLine{{130, 2}, {40, 1}};  // the other way round
   const Repeatability result = repeatability(first, second);
   ASSERT_EQ(result.annotations.size(), 1u);
   EXPECT_EQ(result.annotations[0].difference_px, Eigen::Vector2d(1, 2));

@@ -11,16 +11,16 @@
 namespace boresight::sessions {
 namespace {
 
-using boresight::test::TemporaryFolder;
+using test::TemporaryFolder;
 
 TEST(AnnotationsFile, RoundTripIsExact) {
   const TemporaryFolder folder;
   Random random(2);
   const Annotations annotations = test::randomAnnotations(random, 20, 12);
-  writeAnnotations(folder / "points.json", annotations);
-  EXPECT_EQ(readAnnotations(folder / "points.json"), annotations);
-  writeAnnotations(folder / "points.csv", annotations);
-  EXPECT_EQ(readAnnotations(folder / "points.csv"), annotations);
+  for (const char* name : {"points.json", "points.csv"}) {
+    writeAnnotations(folder / name, annotations);
+    EXPECT_EQ(readAnnotations(folder / name), annotations) << name;
+  }
   EXPECT_EQ(folder.read("points.csv").substr(0, 8), "kind,id,");
   writeAnnotations(folder / "none.json", {});
   EXPECT_TRUE(readAnnotations(folder / "none.json").empty());
@@ -28,40 +28,37 @@ TEST(AnnotationsFile, RoundTripIsExact) {
 
 TEST(AnnotationsFile, OptionalMembers_HaveDefaults) {
   const TemporaryFolder folder;
-  const Annotations annotations =
-      readAnnotations(folder.write("points.json", R"({"format": "boresight-points",
+  Annotations expected;
+  expected.points = {{"a", Eigen::Vector3d(1, 2, 3), Eigen::Vector2d(4, 5), 1.0, true, false, ""},
+                     {"b", {}, {}, 1.0, true, false, ""}};
+  EXPECT_EQ(readAnnotations(folder.write("points.json", R"({"format": "boresight-points",
       "version": 1, "points": [{"id": "a", "point_in_station_m": [1, 2, 3], "pixel": [4, 5]},
-      {"id": "b"}]})"));
-  ASSERT_EQ(annotations.points.size(), 2u);
-  EXPECT_EQ(annotations.points[0].sigma_px, 1.0);
-  EXPECT_TRUE(annotations.points[0].enabled && annotations.points[0].complete());
-  EXPECT_FALSE(annotations.points[0].locked || annotations.points[1].complete());
-  EXPECT_TRUE(annotations.lines.empty());
+      {"id": "b"}]})")),
+            expected);
 }
 
 TEST(AnnotationsFile, InvalidFile_IsReportedWithTheMember) {
   const TemporaryFolder folder;
-  const auto error = [&folder](const std::string& points, const std::string& lines = "[]") {
-    return folder.message([&] {
-      (void)readAnnotations(
-          folder.write("points.json", R"({"format": "boresight-points", "version": 1,
-          "points": )" + points +
-                                          ", \"lines\": " + lines + "}"));
-    });
-  };
   const std::string good = R"("point_in_station_m": [1, 2, 3], "pixel": [4, 5])";
-  EXPECT_EQ(error("{}"), "points.json: points: not a list (is an object)");
-  EXPECT_EQ(error("[{" + good + "}]"), "points.json: points[0].id: missing");
-  EXPECT_EQ(error(R"([{"id": "a", )" + good + R"(}, {"id": "a", )" + good + "}]"),
-            "points.json: points[1].id: 'a' is given twice");
-  EXPECT_EQ(error(R"([{"id": "a", )" + good + "}]", R"([{"id": "a"}])"),
-            "points.json: lines[0].id: 'a' is given twice");
-  EXPECT_EQ(error(R"([{"id": "a", "point_in_station_m": [1, 2], "pixel": [4, 5]}])"),
-            "points.json: points[0].point_in_station_m: not a list of 3 (is a list of 2)");
-  EXPECT_EQ(error(R"([{"id": "a", "sigma_px": 0, )" + good + "}]"),
-            "points.json: points[0].sigma_px: 0 is outside 1e-06 .. 10000");
-  EXPECT_EQ(error("[]", R"([{"id": "l", "line_px": [[1, 1], [1, 1]]}])"),
-            "points.json: lines[0].line_px: both ends coincide");
+  const std::string a = R"({"id": "a", )" + good + "}";
+  const struct {
+    std::string points, lines, error;
+  } files[] = {{"{}", "[]", "points: not a list (is an object)"},
+               {"[{" + good + "}]", "[]", "points[0].id: missing"},
+               {"[" + a + ", " + a + "]", "[]", "points[1].id: 'a' is given twice"},
+               {"[" + a + "]", R"([{"id": "a"}])", "lines[0].id: 'a' is given twice"},
+               {R"([{"id": "a", "point_in_station_m": [1, 2], "pixel": [4, 5]}])", "[]",
+                "points[0].point_in_station_m: not a list of 3 (is a list of 2)"},
+               {R"([{"id": "a", "sigma_px": 0, )" + good + "}]", "[]",
+                "points[0].sigma_px: 0 is outside 1e-06 .. 10000"},
+               {"[]", R"([{"id": "l", "line_px": [[1, 1], [1, 1]]}])",
+                "lines[0].line_px: both ends coincide"}};
+  for (const auto& [points, lines, error] : files) {
+    const auto file =
+        folder.write("points.json", R"({"format": "boresight-points", "version": 1, "points": )" +
+                                        points + ", \"lines\": " + lines + "}");
+    EXPECT_EQ(folder.message([&] { (void)readAnnotations(file); }), "points.json: " + error);
+  }
 }
 
 TEST(AnnotationsCsv, RoundTripIsExact) {
@@ -92,26 +89,23 @@ TEST(AnnotationsCsv, TextThatLooksLikeAFormulaIsTextInASpreadsheetAndComesBack) 
 }
 
 TEST(AnnotationsCsv, InvalidCsv_IsReportedWithLineAndColumn) {
-  const test::TemporaryFolder folder;
-  const auto error = [&folder](const std::string& rows) {
-    return folder.message(
-        [&] { (void)parseAnnotationsCsv("marks.csv", annotationsCsv({}) + rows); });
-  };
-  EXPECT_EQ(error("point,a,1,2,,,3,4,5,,,,1,1,0,\nplane,b,1,2,,,3,4,5,,,,1,1,0,\n"),
-            "marks.csv: line 3, kind: must be point or line");
-  EXPECT_EQ(error("point,a,1,two,,,3,4,5,,,,1,1,0,\n"),
-            "marks.csv: line 2, y1_px: 'two' is not a number");
-  EXPECT_EQ(error("point,a,1,2,,,3,4,5,,,,0,1,0,\n"),
-            "marks.csv: line 2, sigma_px: is outside 1e-06 .. 10000");
-  EXPECT_EQ(error("point,a,1,2,,,3,4,5,,,,1,yes,0,\n"),
-            "marks.csv: line 2, enabled: must be 0 or 1");
-  EXPECT_EQ(error("point,a,1,2\n"), "marks.csv: line 2: has 4 fields, needs 16");
-  EXPECT_EQ(error("point,a,1,2,,,3,4,5,,,,1,1,0,\npoint,a,1,2,,,3,4,5,,,,1,1,0,\n"),
-            "marks.csv: line 3, id: 'a' is given twice");
-  EXPECT_EQ(error("point,a,1,2,,,3,4,5,,,,1,1,0,\"open\n"),
-            "marks.csv: line 2: closing quote is missing");
-  EXPECT_EQ(error("line,a,1,2,1,2,3,4,5,6,7,8,1,1,0,\n"),
-            "marks.csv: line 2, x1_px: a line needs two pixels, or none");
+  const TemporaryFolder folder;
+  const std::string a = "point,a,1,2,,,3,4,5,,,,1,1,0,\n";
+  for (const auto& [rows, error] :
+       {std::pair<std::string, std::string>(a + "plane,b,1,2,,,3,4,5,,,,1,1,0,\n",
+                                            "line 3, kind: must be point or line"),
+        {"point,a,1,two,,,3,4,5,,,,1,1,0,\n", "line 2, y1_px: 'two' is not a number"},
+        {"point,a,1,2,,,3,4,5,,,,0,1,0,\n", "line 2, sigma_px: is outside 1e-06 .. 10000"},
+        {"point,a,1,2,,,3,4,5,,,,1,yes,0,\n", "line 2, enabled: must be 0 or 1"},
+        {"point,a,1,2\n", "line 2: has 4 fields, needs 16"},
+        {a + a, "line 3, id: 'a' is given twice"},
+        {"point,a,1,2,,,3,4,5,,,,1,1,0,\"open\n", "line 2: closing quote is missing"},
+        {"line,a,1,2,1,2,3,4,5,6,7,8,1,1,0,\n",
+         "line 2, x1_px: a line needs two pixels, or none"}}) {
+    const std::string text = annotationsCsv({}) + rows;
+    EXPECT_EQ(folder.message([&] { (void)parseAnnotationsCsv("marks.csv", text); }),
+              "marks.csv: " + error);
+  }
   EXPECT_THROW((void)parseAnnotationsCsv("marks.csv", ""), std::exception);
 }
 

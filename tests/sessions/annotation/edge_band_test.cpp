@@ -3,26 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-
-#include <Eigen/Cholesky>
 
 #include "tests/sessions/annotation/box_scene.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::randomFor;
-
 class EdgeBandTest : public testing::Test, protected test::BoxScene {
  protected:
-  /// Some covariance that is neither diagonal nor small in one direction only.
-  Matrix6d someCovariance() const {
-    Random random = randomFor("EdgeBand.Covariance");
-    Matrix6d root;
-    for (int i = 0; i < 6; ++i)
-      for (int k = 0; k < 6; ++k) root(i, k) = random.normal() * (i < 3 ? 8e-4 : 2e-4);
-    return root * root.transpose();
+  std::vector<BandPiece> bandOf(const Matrix6d& covariance, double step_px = 6.0) const {
+    return edgeBand(MeshSnapper(scene_.view()), camera_, camera_from_station_, covariance, step_px);
   }
 
   /// Place of the line through two pixels that an image of the edge crosses, along a normal.
@@ -36,11 +28,13 @@ class EdgeBandTest : public testing::Test, protected test::BoxScene {
 /// The band about places of one edge holds 95 % of the images that it has from drawn poses. The
 /// oracle knows neither the Jacobian nor the covariance of a pixel: it projects.
 TEST_F(EdgeBandTest, HoldsNineteenOfTwentyPoses) {
-  const MeshSnapper snapper(scene_.view());
-  const Matrix6d covariance = someCovariance();
-  const auto pieces = edgeBand(snapper, camera_, camera_from_station_, covariance, 40.0);
-  const Matrix6d root = covariance.llt().matrixL();
-  Random random = randomFor("EdgeBand.Draws");
+  // Some covariance that is neither diagonal nor small in one direction only.
+  Random random = test::randomFor("EdgeBand.Covariance");
+  Matrix6d root;
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 6; ++k) root(i, k) = random.normal() * (i < 3 ? 8e-4 : 2e-4);
+  const auto pieces = bandOf(root * root.transpose(), 40.0);
+  random = test::randomFor("EdgeBand.Draws");
   const Eigen::Vector3d start(-0.1, -0.1, 0.0), end(-0.1, 0.1, 0.0);
   const auto at = [&](double share) { return ((1.0 - share) * start + share * end).eval(); };
   int checked = 0;
@@ -69,9 +63,7 @@ TEST_F(EdgeBandTest, HoldsNineteenOfTwentyPoses) {
 }
 
 TEST_F(EdgeBandTest, FollowsSeenEdgesOnly) {
-  const MeshSnapper snapper(scene_.view());
-  const auto pieces =
-      edgeBand(snapper, camera_, camera_from_station_, Matrix6d::Identity() * 1e-8, 6.0);
+  const auto pieces = bandOf(Matrix6d::Identity() * 1e-8);
   ASSERT_FALSE(pieces.empty());
   int on_the_rim = 0;
   for (const BandPiece& piece : pieces) {
@@ -94,11 +86,9 @@ TEST_F(EdgeBandTest, FollowsSeenEdgesOnly) {
   EXPECT_GT(on_the_rim, 0);
 }
 
-TEST_F(EdgeBandTest, LeavesOutTheFarSide) {
+TEST_F(EdgeBandTest, LeavesOutTheFarSideAndIsEmptyWhereNothingIsSeen) {
   camera_from_station_.rotation = rotationExp({kPi * 0.75, 0.0, 0.0});
-  const MeshSnapper snapper(scene_.view());
-  const auto pieces =
-      edgeBand(snapper, camera_, camera_from_station_, Matrix6d::Identity() * 1e-8, 6.0);
+  const auto pieces = bandOf(Matrix6d::Identity() * 1e-8);
   const auto nearest_px = [&](const Eigen::Vector3d& place_m) {
     double nearest = 1e9;
     for (const BandPiece& piece : pieces)
@@ -107,16 +97,12 @@ TEST_F(EdgeBandTest, LeavesOutTheFarSide) {
     return nearest;
   };
   // Of the two lower edges one is in front and one is hidden by the box.
-  const double value = nearest_px({0.0, 0.1, -0.04});
-  const double other = nearest_px({0.0, -0.1, -0.04});
-  EXPECT_LT(std::min(value, other), 3.1);
-  EXPECT_GT(std::max(value, other), 5.0);
-}
-
-TEST_F(EdgeBandTest, IsEmptyWhereNothingIsSeen) {
-  const MeshSnapper snapper(scene_.view());
+  const auto [near, far] =
+      std::minmax({nearest_px({0.0, 0.1, -0.04}), nearest_px({0.0, -0.1, -0.04})});
+  EXPECT_LT(near, 3.1);
+  EXPECT_GT(far, 5.0);
   camera_from_station_.translation_m.z() = -2.0;
-  EXPECT_TRUE(edgeBand(snapper, camera_, camera_from_station_, Matrix6d::Identity()).empty());
+  EXPECT_TRUE(bandOf(Matrix6d::Identity()).empty());
 }
 
 }  // namespace

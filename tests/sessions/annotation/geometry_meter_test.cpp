@@ -16,23 +16,20 @@
 namespace boresight::sessions {
 namespace {
 
-using test::addPoint;
 using test::AnnotatedScene;
-using test::randomFor;
-using test::randomScene;
 
 AnnotatedScene sceneOf(const std::vector<Eigen::Vector3d>& places_m) {
   Random random(1);
-  AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
-  scene.camera_from_station.rotation = Eigen::Quaterniond::Identity();
-  scene.camera_from_station.translation_m = {0.0, 0.0, 0.5};
+  AnnotatedScene scene = test::randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
+  scene.camera_from_station = {Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.5}};
   for (const Eigen::Vector3d& place_m : places_m)
-    EXPECT_TRUE(addPoint(scene.view, scene.camera_from_station, place_m, 0.0, 1.0, random));
+    EXPECT_TRUE(test::addPoint(scene.view, scene.camera_from_station, place_m, 0.0, 1.0, random));
   return scene;
 }
 
-bool warnsOf(const std::vector<GeometryWarning>& warnings, GeometryWeakness weakness,
-             bool prevents) {
+bool warnsOf(const AnnotatedScene& scene, GeometryWeakness weakness, bool prevents = false,
+             const Pose* guess = nullptr, const std::vector<Eigen::Vector3d>& station = {}) {
+  const auto warnings = geometryWarnings(scene.views(), guess, station);
   return std::any_of(warnings.begin(), warnings.end(), [&](const GeometryWarning& warning) {
     return warning.weakness == weakness && warning.prevents == prevents && !warning.text.empty();
   });
@@ -51,25 +48,20 @@ TEST(GeometryMeter, SaysHowManyPairsAreMissing) {
   }
 }
 
-TEST(GeometryMeter, ThreePointsNeedAGuessAndLeaveNothingToCheck) {
+TEST(GeometryMeter, KnowsTooFewPointsLinesAndPlanes) {
   const AnnotatedScene three = sceneOf({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0.05}});
-  EXPECT_TRUE(
-      warnsOf(geometryWarnings(three.views(), nullptr, {}), GeometryWeakness::kTooFew, true));
-  EXPECT_TRUE(warnsOf(geometryWarnings(three.views(), &three.camera_from_station, {}),
-                      GeometryWeakness::kFew, false));
-}
-
-TEST(GeometryMeter, KnowsLinesAndPlanes) {
-  std::vector<Eigen::Vector3d> line;
-  std::vector<Eigen::Vector3d> plane;
+  EXPECT_TRUE(warnsOf(three, GeometryWeakness::kTooFew, true));
+  EXPECT_TRUE(warnsOf(three, GeometryWeakness::kFew, false, &three.camera_from_station));
+  std::vector<Eigen::Vector3d> line, plane;
   for (int i = 0; i < 6; ++i) {
     line.emplace_back(0.02 * i, 0.01 * i, 0.03 * i);
     plane.emplace_back(0.02 * i, 0.01 * (i * i % 5), 0.01 * i);  // z = x / 2
   }
-  EXPECT_TRUE(warnsOf(geometryWarnings(sceneOf(line).views(), nullptr, {}),
-                      GeometryWeakness::kCollinear, true));
-  EXPECT_TRUE(warnsOf(geometryWarnings(sceneOf(plane).views(), nullptr, {}),
-                      GeometryWeakness::kCoplanar, false));
+  EXPECT_TRUE(warnsOf(sceneOf(line), GeometryWeakness::kCollinear, true));
+  EXPECT_TRUE(warnsOf(sceneOf(plane), GeometryWeakness::kCoplanar));
+  Random random = test::randomFor("GeometryMeter.Content");
+  const AnnotatedScene scene = test::randomScene(random, CameraModel::kPinhole, 20, 0, 0.0);
+  EXPECT_TRUE(geometryWarnings(scene.views(), &scene.camera_from_station, {}).empty());
 }
 
 /// The middle and the deviations of the corners of a box that is turned about z by 3-4-5, and of
@@ -105,8 +97,7 @@ TEST(GeometryMeter, OneDepth_IsWithinTwoPercent) {
     const double half_m = 0.5 * share * 0.5;
     const AnnotatedScene scene = sceneOf(
         {{-0.1, -0.1, half_m}, {0.1, -0.1, -half_m}, {0.1, 0.1, half_m}, {-0.1, 0.1, -half_m}});
-    EXPECT_EQ(warnsOf(geometryWarnings(scene.views(), &scene.camera_from_station, {}),
-                      GeometryWeakness::kOneDepth, false),
+    EXPECT_EQ(warnsOf(scene, GeometryWeakness::kOneDepth, false, &scene.camera_from_station),
               warns);
   }
 }
@@ -118,17 +109,11 @@ TEST(GeometryMeter, Clustered_IsBelowAQuarterOfTheStationEitherWay) {
                                     {0.026, 0.1, false},
                                     {0.1, 0.026, false}}) {
     const AnnotatedScene scene = sceneOf({{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}});
-    EXPECT_EQ(warnsOf(geometryWarnings(scene.views(), &scene.camera_from_station, station),
-                      GeometryWeakness::kClustered, false),
-              warns)
+    EXPECT_EQ(
+        warnsOf(scene, GeometryWeakness::kClustered, false, &scene.camera_from_station, station),
+        warns)
         << x << ' ' << y;
   }
-}
-
-TEST(GeometryMeter, SpreadAnnotations_GiveNoWarning) {
-  Random random = randomFor("GeometryMeter.Content");
-  const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 20, 0, 0.0);
-  EXPECT_TRUE(geometryWarnings(scene.views(), &scene.camera_from_station, {}).empty());
 }
 
 TEST(GeometryMeter, Count_IncludesOnlyEnabledCompletePairs) {

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -14,45 +17,56 @@ namespace {
 
 using test::randomFor;
 
-/// What a sensor sees of a scene that is bright where `inside` says so: areas by 16 x 16 samples
-/// a pixel, blurred by the optics (two boxes of a pixel), with noise.
-class Scene {
+using Gray = std::function<double(const Eigen::Vector2d&)>;
+
+/// A square picture of these grays, each pixel their mean over `samples` x `samples` places.
+class Picture {
  public:
-  Scene(int size, const std::function<bool(const Eigen::Vector2d&)>& inside, double noise,
-        Random& random)
-      : size_(size) {
-    std::vector<double> area(static_cast<std::size_t>(size * size));
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) area[index(x, y)] = coverage(x, y, inside);
-    for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x) {
+  explicit Picture(const Gray& gray_at, int side = 100, int samples = 8) : side_(side) {
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
         double sum = 0.0;
+        for (int v = 0; v < samples; ++v)
+          for (int u = 0; u < samples; ++u)
+            sum += gray_at({x - 0.5 + (u + 0.5) / samples, y - 0.5 + (v + 0.5) / samples});
+        grays_.push_back(sum / (samples * samples));
+      }
+    for (const double gray : grays_) pixels_.push_back(static_cast<std::uint8_t>(gray + 0.5));
+  }
+
+  /// As a sensor sees it: blurred by the optics (two boxes of a pixel), with noise.
+  Picture sensed(double noise, Random& random) && {
+    pixels_.clear();
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x) {
+        double sum = noise * random.normal();
         for (int v = -1; v <= 1; ++v)
           for (int u = -1; u <= 1; ++u)
-            sum += (2 - std::abs(u)) * (2 - std::abs(v)) *
-                   area[index(std::clamp(x + u, 0, size - 1), std::clamp(y + v, 0, size - 1))];
-        const double value = 60.0 + 120.0 * sum / 16.0 + noise * random.normal();
-        pixels_.push_back(static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5));
+            sum += (2 - std::abs(u)) * (2 - std::abs(v)) / 16.0 * grayAt(x + u, y + v);
+        pixels_.push_back(static_cast<std::uint8_t>(std::clamp(sum, 0.0, 255.0) + 0.5));
       }
-    }
+    return std::move(*this);
   }
 
-  ImageView view() const { return {pixels_.data(), size_, size_, size_}; }
+  ImageView view() const { return {pixels_.data(), side_, side_, side_}; }
 
  private:
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * size_ + x); }
-
-  static double coverage(int x, int y, const std::function<bool(const Eigen::Vector2d&)>& inside) {
-    int count = 0;
-    for (int v = 0; v < 16; ++v)
-      for (int u = 0; u < 16; ++u)
-        count += inside({x - 0.5 + (u + 0.5) / 16.0, y - 0.5 + (v + 0.5) / 16.0}) ? 1 : 0;
-    return count / 256.0;
+  double grayAt(int x, int y) const {
+    return grays_[static_cast<std::size_t>(std::clamp(y, 0, side_ - 1) * side_ +
+                                           std::clamp(x, 0, side_ - 1))];
   }
 
-  int size_;
+  int side_;
+  std::vector<double> grays_;
   std::vector<std::uint8_t> pixels_;
 };
+
+/// What a sensor sees of a scene that is bright where `inside` says so.
+Picture sensedScene(int side, const std::function<bool(const Eigen::Vector2d&)>& inside,
+                    double noise, Random& random) {
+  return Picture([&](const Eigen::Vector2d& p) { return inside(p) ? 180.0 : 60.0; }, side, 16)
+      .sensed(noise, random);
+}
 
 TEST(SnapToEdge, FindsAStraightEdgeToATwentiethOfAPixel) {
   Random random = randomFor("SnapToEdge");
@@ -61,7 +75,7 @@ TEST(SnapToEdge, FindsAStraightEdgeToATwentiethOfAPixel) {
     const double angle = random.uniform(-kPi, kPi);
     const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
     const Eigen::Vector2d through = Eigen::Vector2d(30, 30) + 2.0 * Eigen::Vector2d::Random();
-    const Scene scene(
+    const Picture scene = sensedScene(
         61, [&](const Eigen::Vector2d& p) { return (p - through).dot(normal) > 0.0; }, 0.5, random);
     const Eigen::Vector2d near = through + random.uniform(-4.0, 4.0) * normal;
     const auto snap = snapToEdge(scene.view(), near, 6.0);
@@ -81,7 +95,7 @@ TEST(SnapToCorner, FindsARightAngle) {
     const Eigen::Vector2d a(std::cos(angle), std::sin(angle));
     const Eigen::Vector2d b(-a.y(), a.x());
     const Eigen::Vector2d corner(30.0 + random.uniform(-1, 1), 30.0 + random.uniform(-1, 1));
-    const Scene scene(
+    const Picture scene = sensedScene(
         61,
         [&](const Eigen::Vector2d& p) {
           return (p - corner).dot(a) > 0.0 && (p - corner).dot(b) > 0.0;
@@ -102,7 +116,7 @@ TEST(SnapToCorner, ARimIsNone) {
   int found = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const double radius = random.uniform(8.0, 16.0);
-    const Scene scene(
+    const Picture scene = sensedScene(
         61, [&](const Eigen::Vector2d& p) { return (p - Eigen::Vector2d(30, 30)).norm() < radius; },
         2.0, random);
     const double angle = random.uniform(-kPi, kPi);
@@ -120,7 +134,7 @@ TEST(SnapToEllipse, FindsTheCentreToATenthOfAPixel) {
     const Eigen::Vector2d half(random.uniform(8.0, 16.0), random.uniform(6.0, 8.0));
     const Eigen::Vector2d centre(40.0 + random.uniform(-1, 1), 40.0 + random.uniform(-1, 1));
     const bool bright = trial % 2 == 0;
-    const Scene scene(
+    const Picture scene = sensedScene(
         81,
         [&](const Eigen::Vector2d& p) {
           const Eigen::Vector2d q = p - centre;
@@ -146,9 +160,9 @@ TEST(SnapToEllipse, FindsTheCentreToATenthOfAPixel) {
 
 TEST(Snapping, FindsNothingWhereNothingIs) {
   Random random = randomFor("Snapping.Nothing");
-  const Scene flat(
+  const Picture flat = sensedScene(
       61, [](const Eigen::Vector2d&) { return false; }, 1.0, random);
-  const Scene edge(
+  const Picture edge = sensedScene(
       61, [](const Eigen::Vector2d& p) { return p.x() > 30.2; }, 0.0, random);
   for (const Eigen::Vector2d& near :
        {Eigen::Vector2d(30, 30), Eigen::Vector2d(0, 0), Eigen::Vector2d(60, 59.6)}) {
@@ -162,25 +176,12 @@ TEST(Snapping, FindsNothingWhereNothingIs) {
   EXPECT_FALSE(snapToEdge(edge.view(), {-500, 3000}, 8.0));
 }
 
-/// Bright where `inside` says so, each pixel by its covered area.
-class Picture {
- public:
-  explicit Picture(const std::function<double(const Eigen::Vector2d&)>& gray_at) {
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < kSide; ++x) {
-        double sum = 0.0;
-        for (int v = 0; v < 8; ++v)
-          for (int u = 0; u < 8; ++u)
-            sum += gray_at({x - 0.5 + (u + 0.5) / 8.0, y - 0.5 + (v + 0.5) / 8.0}) / 64.0;
-        pixels_.push_back(static_cast<std::uint8_t>(std::lround(sum)));
-      }
-  }
-  ImageView view() const { return {pixels_.data(), kSide, kSide, kSide}; }
-
- private:
-  static constexpr int kSide = 100;
-  std::vector<std::uint8_t> pixels_;
-};
+template <class Snap>
+auto kindsOf(const std::vector<Snap>& snaps) {
+  std::vector<decltype(Snap::kind)> kinds;
+  for (const Snap& snap : snaps) kinds.push_back(snap.kind);
+  return kinds;
+}
 
 TEST(ImageSnaps, ACornerComesBeforeItsNearerEdges) {
   const Eigen::Vector2d corner(50.2, 40.7);
@@ -188,9 +189,7 @@ TEST(ImageSnaps, ACornerComesBeforeItsNearerEdges) {
     return p.x() > corner.x() && p.y() > corner.y() ? 200.0 : 50.0;
   });
   const auto snaps = imageSnaps(picture.view(), corner + Eigen::Vector2d(0.2, 2.0), 8.0, 24.0);
-  ASSERT_EQ(snaps.size(), 2u);
-  EXPECT_EQ(snaps[0].kind, ImageSnapKind::kCorner);
-  EXPECT_EQ(snaps[1].kind, ImageSnapKind::kEdge);
+  ASSERT_THAT(kindsOf(snaps), ElementsAre(ImageSnapKind::kCorner, ImageSnapKind::kEdge));
   EXPECT_GT(snaps[0].distance_px, snaps[1].distance_px);
   // Far along the edge it is the edge that is meant.
   const auto along = imageSnaps(picture.view(), corner + Eigen::Vector2d(0.2, 6.5), 8.0, 24.0);
@@ -223,18 +222,17 @@ TEST(ImageSnaps, ASpeckInTheShadowDoesNotCompeteWithTheEdgeOfTheShadow) {
 }
 
 TEST(LikeliestFirst, AVertexComesBeforeTheEdgeThatEndsInIt) {
-  MeshSnap vertex, edge, circle;
-  vertex.kind = MeshSnapKind::kVertex;
-  vertex.distance_px = 3.0;
-  edge.kind = MeshSnapKind::kEdge;
-  edge.distance_px = 0.5;
-  circle.kind = MeshSnapKind::kCircle;
-  circle.distance_px = 7.0;
-  const auto snaps = likeliestFirst({edge, circle, vertex}, 8.0);
-  ASSERT_EQ(snaps.size(), 3u);
-  EXPECT_EQ(snaps[0].kind, MeshSnapKind::kVertex);
-  EXPECT_EQ(snaps[1].kind, MeshSnapKind::kEdge);
-  EXPECT_EQ(snaps[2].kind, MeshSnapKind::kCircle);
+  const auto snap = [](MeshSnapKind kind, double distance_px) {
+    MeshSnap mesh_snap;
+    mesh_snap.kind = kind;
+    mesh_snap.distance_px = distance_px;
+    return mesh_snap;
+  };
+  const std::vector<MeshSnap> snaps = {snap(MeshSnapKind::kEdge, 0.5),
+                                       snap(MeshSnapKind::kCircle, 7.0),
+                                       snap(MeshSnapKind::kVertex, 3.0)};
+  EXPECT_THAT(kindsOf(likeliestFirst(snaps, 8.0)),
+              ElementsAre(MeshSnapKind::kVertex, MeshSnapKind::kEdge, MeshSnapKind::kCircle));
 }
 
 }  // namespace

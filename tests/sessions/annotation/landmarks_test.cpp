@@ -8,19 +8,15 @@
 
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/annotation/box_scene.h"
-#include "tests/sessions/annotation/random_annotations.h"
 #include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::randomFor;
-using test::TemporaryFolder;
-
 TEST(Landmarks, ReadBackAsTheSameBits) {
-  const TemporaryFolder folder;
-  Random random = randomFor("Landmarks.RoundTrip");
+  const test::TemporaryFolder folder;
+  Random random = test::randomFor("Landmarks.RoundTrip");
   std::vector<Landmark> landmarks;
   for (int i = 0; i < 50; ++i)
     landmarks.push_back({"screw \"" + std::to_string(i) + "\" \xC3\xBC",
@@ -32,22 +28,21 @@ TEST(Landmarks, ReadBackAsTheSameBits) {
 }
 
 TEST(Landmarks, SaysWhatIsWrongAndWhere) {
-  const TemporaryFolder folder;
-  const auto message = [&](const std::string& landmarks) {
+  const test::TemporaryFolder folder;
+  const std::string good = R"({"name": "a", "point_in_station_m": [0, 0, 1]})";
+  for (const auto& [landmarks, error] :
+       {std::pair<std::string, std::string>("[" + good + "]", "(nothing)"),
+        {"[" + good + "," + good + "]", "[1].name: 'a' is given twice"},
+        {"3", "l.json: landmarks: "},
+        {R"([{"name": ""}])", "landmarks[0].name: is empty"},
+        {R"([{"name": "a"}])", "point_in_station_m: missing"},
+        {R"([{"name": "a", "point_in_station_m": [0, 0, 1e9]}])", "point_in_station_m[2]"},
+        {R"([{"names": "a"}])", "landmarks[0].name: missing"}}) {
     const auto file =
         folder.write("l.json", R"({"format": "boresight-landmarks", "version": 1, "landmarks": )" +
                                    landmarks + "}");
-    return folder.message([&] { (void)readLandmarks(file); });
-  };
-  const std::string good = R"({"name": "a", "point_in_station_m": [0, 0, 1]})";
-  EXPECT_EQ(message("[" + good + "]"), "(nothing)");
-  EXPECT_THAT(message("[" + good + "," + good + "]"), HasSubstr("[1].name: 'a' is given twice"));
-  EXPECT_THAT(message("3"), HasSubstr("l.json: landmarks: "));
-  EXPECT_THAT(message(R"([{"name": ""}])"), HasSubstr("landmarks[0].name: is empty"));
-  EXPECT_THAT(message(R"([{"name": "a"}])"), HasSubstr("point_in_station_m: missing"));
-  EXPECT_THAT(message(R"([{"name": "a", "point_in_station_m": [0, 0, 1e9]}])"),
-              HasSubstr("point_in_station_m[2]"));
-  EXPECT_THAT(message(R"([{"names": "a"}])"), HasSubstr("landmarks[0].name: missing"));
+    EXPECT_THAT(folder.message([&] { (void)readLandmarks(file); }), HasSubstr(error));
+  }
 }
 
 TEST(Landmarks, TakeTheStationsSideOfPairs) {
@@ -60,6 +55,9 @@ TEST(Landmarks, TakeTheStationsSideOfPairs) {
   const std::vector<Landmark> expected = {
       {"z", {0, 0, 0}, "kept"}, {"a", {1, 2, 3}, "new"}, {"c", {4, 5, 6}, ""}};
   EXPECT_EQ(withAnnotations(before, annotations), expected);
+  EXPECT_EQ(leftOutOfLandmarks(annotations), "");
+  annotations.lines.resize(2);
+  EXPECT_EQ(leftOutOfLandmarks(annotations), "2 lines are left out: landmarks are points.");
 }
 
 class Proposals : public testing::Test, protected test::BoxScene {
@@ -87,7 +85,7 @@ TEST_F(Proposals, LieWhereTheCameraSeesThem) {
 }
 
 TEST_F(Proposals, SigmaIsThatOfDrawnPoses) {
-  Random random = randomFor("Proposals.Sigma");
+  Random random = test::randomFor("Proposals.Sigma");
   Vector6d sigma;
   sigma << 0.002, 0.001, 0.003, 5e-4, 2e-4, 1e-3;
   const Matrix6d covariance = sigma.cwiseAbs2().asDiagonal();
@@ -131,33 +129,20 @@ std::optional<Eigen::Vector2d> featureIn(const std::vector<std::uint8_t>& pixels
   return featureOf(proposal, {pixels.data(), kSide, kSide, kSide});
 }
 
-TEST(ProposalFeature, IsTheCornerNearThePrediction) {
-  const auto pixels = picture([](int x, int y) { return x >= 50 && y >= 40; });
-  const Eigen::Vector2d corner(49.5, 39.5);
-  const auto found = featureIn(pixels, {51.0, 41.0}, 1.0);
-  ASSERT_TRUE(found);
-  EXPECT_LT((*found - corner).norm(), 0.3);
-  EXPECT_FALSE(featureIn(pixels, {70.0, 70.0}, 1.0)) << "too far from any corner";
-  EXPECT_FALSE(featureIn(pixels, {60.0, 50.0}, 100.0)) << "the search has an end";
-}
-
-TEST(ProposalFeature, OnlyCornersAndEllipses_AreMeasurements) {
-  const auto flat = picture([](int, int) { return true; });
-  EXPECT_FALSE(featureIn(flat, {50.0, 50.0}, 2.0));
-  const auto edge = picture([](int x, int) { return x >= 50; });
-  EXPECT_FALSE(featureIn(edge, {50.0, 50.0}, 2.0)) << "along an edge it may be anywhere";
+TEST(ProposalFeature, IsTheCornerOrEllipseNearThePrediction) {
+  const auto corner = picture([](int x, int y) { return x >= 50 && y >= 40; });
   const auto disc =
       picture([](int x, int y) { return (x - 50) * (x - 50) + (y - 48) * (y - 48) < 64; });
-  const auto centre = featureIn(disc, {51.0, 47.5}, 1.5);
-  ASSERT_TRUE(centre);
-  EXPECT_LT((*centre - Eigen::Vector2d(50.0, 48.0)).norm(), 0.3);
-}
-
-TEST(Landmarks, LinesAreSaidToBeLeftOut) {
-  Annotations annotations;
-  EXPECT_EQ(leftOutOfLandmarks(annotations), "");
-  annotations.lines.resize(2);
-  EXPECT_EQ(leftOutOfLandmarks(annotations), "2 lines are left out: landmarks are points.");
+  const auto at_corner = featureIn(corner, {51.0, 41.0}, 1.0);
+  const auto at_centre = featureIn(disc, {51.0, 47.5}, 1.5);
+  ASSERT_TRUE(at_corner && at_centre);
+  EXPECT_LT((*at_corner - Eigen::Vector2d(49.5, 39.5)).norm(), 0.3);
+  EXPECT_LT((*at_centre - Eigen::Vector2d(50.0, 48.0)).norm(), 0.3);
+  EXPECT_FALSE(featureIn(corner, {70.0, 70.0}, 1.0)) << "too far from any corner";
+  EXPECT_FALSE(featureIn(corner, {60.0, 50.0}, 100.0)) << "the search has an end";
+  EXPECT_FALSE(featureIn(picture([](int, int) { return true; }), {50.0, 50.0}, 2.0));
+  EXPECT_FALSE(featureIn(picture([](int x, int) { return x >= 50; }), {50.0, 50.0}, 2.0))
+      << "along an edge it may be anywhere";
 }
 
 }  // namespace

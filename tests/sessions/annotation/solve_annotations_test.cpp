@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <opencv2/calib3d.hpp>
@@ -21,6 +22,14 @@ using test::AnnotatedScene;
 using test::randomFor;
 using test::randomScene;
 
+/// The solution; a failure where there is none.
+AnnotationsSolution solved(const std::vector<AnnotatedView>& views,
+                           const SolveAnnotationsOptions& options = {}) {
+  const AnnotationsResult result = solveAnnotations(views, options);
+  EXPECT_TRUE(result.solution) << result.reason;
+  return result.solution.value_or(AnnotationsSolution());
+}
+
 double distance(const Pose& a, const Pose& b) { return perturbationBetween(a, b).norm(); }
 
 TEST(SolveAnnotations, FindsTheTruthWithEveryCamera) {
@@ -29,10 +38,9 @@ TEST(SolveAnnotations, FindsTheTruthWithEveryCamera) {
        {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt}) {
     for (int trial = 0; trial < 30; ++trial) {
       const AnnotatedScene scene = randomScene(random, model, 4 + trial % 5, trial % 4, 0.0);
-      const AnnotationsResult result = solveAnnotations(scene.views(), {});
-      ASSERT_TRUE(result.solution) << result.reason;
-      EXPECT_LT(distance(result.solution->rig_from_station, scene.camera_from_station), 1e-7);
-      EXPECT_LT(result.solution->rms_px, 1e-5);
+      const AnnotationsSolution solution = solved(scene.views());
+      EXPECT_LT(distance(solution.rig_from_station, scene.camera_from_station), 1e-7);
+      EXPECT_LT(solution.rms_px, 1e-5);
     }
   }
 }
@@ -43,12 +51,10 @@ TEST(SolveAnnotations, LinesAlone_FromAnInitialPose_AreSolved) {
     const AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 0, 8, 0.0);
     EXPECT_THAT(solveAnnotations(scene.views(), {}).reason, HasSubstr("initial pose"));
     SolveAnnotationsOptions options;
-    Vector6d off;
-    off << 0.03, -0.05, 0.04, 0.01, -0.01, 0.02;
-    options.rig_from_station_guess = perturbed(off, scene.camera_from_station);
-    const AnnotationsResult result = solveAnnotations(scene.views(), options);
-    ASSERT_TRUE(result.solution) << result.reason;
-    EXPECT_LT(distance(result.solution->rig_from_station, scene.camera_from_station), 1e-7);
+    options.rig_from_station_guess =
+        perturbed(Vector6d{{0.03, -0.05, 0.04, 0.01, -0.01, 0.02}}, scene.camera_from_station);
+    EXPECT_LT(distance(solved(scene.views(), options).rig_from_station, scene.camera_from_station),
+              1e-7);
   }
 }
 
@@ -67,13 +73,9 @@ std::pair<std::vector<cv::Point3d>, std::vector<cv::Point2d>> toOpenCv(
   return pairs;
 }
 
-Pose fromOpenCv(const cv::Mat& rotation, const cv::Mat& translation) {
-  Pose pose;
-  pose.rotation =
-      rotationExp({rotation.at<double>(0), rotation.at<double>(1), rotation.at<double>(2)});
-  pose.translation_m = {translation.at<double>(0), translation.at<double>(1),
-                        translation.at<double>(2)};
-  return pose;
+Pose fromOpenCv(const cv::Mat1d& rotation, const cv::Mat1d& translation) {
+  return {rotationExp({rotation(0), rotation(1), rotation(2)}),
+          {translation(0), translation(1), translation(2)}};
 }
 
 TEST(SolveAnnotations, AgreesWithOpenCvsIterativeSolution) {
@@ -89,9 +91,8 @@ TEST(SolveAnnotations, AgreesWithOpenCvsIterativeSolution) {
     cv::solvePnPRefineLM(
         places, pixels, cameraMatrix(scene.view.camera), distortion, rotation, translation,
         cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-14));
-    const AnnotationsResult result = solveAnnotations(scene.views(), {});
-    ASSERT_TRUE(result.solution) << result.reason;
-    EXPECT_LT(distance(result.solution->rig_from_station, fromOpenCv(rotation, translation)), 1e-5);
+    EXPECT_LT(distance(solved(scene.views()).rig_from_station, fromOpenCv(rotation, translation)),
+              1e-5);
   }
 }
 
@@ -118,29 +119,20 @@ TEST(SolveAnnotations, ShowsBothPosesOfAPlaneAsIppeDoes) {
     cv::solvePnPGeneric(places, pixels, cameraMatrix(scene.view.camera), cv::noArray(), rotations,
                         translations, false, cv::SOLVEPNP_IPPE, cv::noArray(), cv::noArray(),
                         errors);
-    const AnnotationsResult result = solveAnnotations(scene.views(), {});
-    ASSERT_TRUE(result.solution) << result.reason;
-    // Never worse than IPPE's best.
-    double least = 1e9;
-    for (const double error : errors) least = std::min(least, error);
-    EXPECT_LE(result.solution->rms_px, least * 1.001 + 1e-6);
-    const double apart_rad =
-        rotationLog((fromOpenCv(rotations[0], translations[0]).rotation *
-                     fromOpenCv(rotations[1], translations[1]).rotation.conjugate())
-                        .normalized())
-            .norm();
-    const bool expected = apart_rad > 0.3 && std::max(errors[0], errors[1]) < least + 0.3;
-    ambiguous += expected ? 1 : 0;
-    if (expected) {
-      EXPECT_TRUE(result.solution->ambiguous) << errors[0] << " " << errors[1] << " " << apart_rad;
+    const AnnotationsSolution solution = solved(scene.views());
+    const double least = *std::min_element(errors.begin(), errors.end());
+    EXPECT_LE(solution.rms_px, least * 1.001 + 1e-6) << "never worse than IPPE's best";
+    const Pose poses[] = {fromOpenCv(rotations[0], translations[0]),
+                          fromOpenCv(rotations[1], translations[1])};
+    const double apart_rad = poses[0].rotation.angularDistance(poses[1].rotation);
+    if (apart_rad > 0.3 && std::max(errors[0], errors[1]) < least + 0.3) {
+      ++ambiguous;
+      EXPECT_TRUE(solution.ambiguous) << errors[0] << " " << errors[1] << " " << apart_rad;
     }
-    if (!result.solution->ambiguous) continue;
-    EXPECT_GE(result.solution->ambiguous->rms_px, result.solution->rms_px - 1e-9);
-    double nearest = 1e9;
-    for (std::size_t i = 0; i < rotations.size(); ++i)
-      nearest = std::min(nearest, distance(result.solution->ambiguous->rig_from_station,
-                                           fromOpenCv(rotations[i], translations[i])));
-    EXPECT_LT(nearest, 0.2);
+    if (!solution.ambiguous) continue;
+    EXPECT_GE(solution.ambiguous->rms_px, solution.rms_px - 1e-9);
+    const Pose& other = solution.ambiguous->rig_from_station;
+    EXPECT_LT(std::min(distance(other, poses[0]), distance(other, poses[1])), 0.2);
   }
   EXPECT_GT(ambiguous, 5);
 }
@@ -151,23 +143,20 @@ TEST(SolveAnnotations, Robust_IgnoresFarOutliers) {
   robust.robust = true;
   for (int trial = 0; trial < 30; ++trial) {
     AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 14, 4, 0.3);
-    const AnnotationsResult clean = solveAnnotations(scene.views(), robust);
-    ASSERT_TRUE(clean.solution);
+    const auto errorOf = [&](const AnnotationsSolution& solution) {
+      return distance(solution.rig_from_station, scene.camera_from_station);
+    };
+    const double clean_error = errorOf(solved(scene.views(), robust));
     *scene.view.annotations.points[2].pixel += Eigen::Vector2d(60.0, -25.0);
     *scene.view.annotations.points[9].pixel += Eigen::Vector2d(-8.0, 12.0);
     scene.view.annotations.lines[1].line->start += Eigen::Vector2d(30.0, 30.0);
-    const AnnotationsResult result = solveAnnotations(scene.views(), robust);
-    ASSERT_TRUE(result.solution) << result.reason;
-    const double robust_error =
-        distance(result.solution->rig_from_station, scene.camera_from_station);
-    EXPECT_LT(robust_error,
-              3.0 * distance(clean.solution->rig_from_station, scene.camera_from_station) + 2e-3);
-    EXPECT_EQ(result.solution->annotations[2].weight, 0.0);
-    EXPECT_EQ(result.solution->annotations[9].weight, 0.0);
-    EXPECT_GT(result.solution->annotations[2].normalized, 3.0);
-    const AnnotationsResult plain = solveAnnotations(scene.views(), {});
-    ASSERT_TRUE(plain.solution);
-    EXPECT_GT(distance(plain.solution->rig_from_station, scene.camera_from_station), robust_error);
+    const AnnotationsSolution solution = solved(scene.views(), robust);
+    ASSERT_EQ(solution.annotations.size(), 18u);
+    EXPECT_LT(errorOf(solution), 3.0 * clean_error + 2e-3);
+    EXPECT_EQ(solution.annotations[2].weight, 0.0);
+    EXPECT_EQ(solution.annotations[9].weight, 0.0);
+    EXPECT_GT(solution.annotations[2].normalized, 3.0);
+    EXPECT_GT(errorOf(solved(scene.views())), errorOf(solution));
   }
 }
 
@@ -179,29 +168,25 @@ TEST(SolveAnnotations, Rig_IsSolvedTogether) {
     AnnotatedView right;
     right.name = "right";
     right.camera = test::annotatedCamera(CameraModel::kPinhole);
-    right.camera_from_rig.translation_m = {-0.15, 0.01, 0.0};
-    right.camera_from_rig.rotation = rotationExp({0.02, 0.25, -0.03});
+    right.camera_from_rig = {rotationExp({0.02, 0.25, -0.03}), {-0.15, 0.01, 0.0}};
     const Pose right_from_station = right.camera_from_rig * left.camera_from_station;
     for (const PointPair& point : left.view.annotations.points)
       addPoint(right, right_from_station, *point.point_in_station_m, 0.5, 0.5, random);
-    const std::vector<AnnotatedView> views = {left.view, right};
-    const AnnotationsResult result = solveAnnotations(views, {});
-    ASSERT_TRUE(result.solution) << result.reason;
-    EXPECT_LT(distance(result.solution->camera_from_station[1],
-                       right.camera_from_rig * result.solution->rig_from_station),
+    const AnnotationsSolution both = solved({left.view, right});
+    ASSERT_EQ(both.camera_from_station.size(), 2u);
+    EXPECT_LT(distance(both.camera_from_station[1], right.camera_from_rig * both.rig_from_station),
               1e-12);
-    const AnnotationsResult alone = solveAnnotations(left.views(), {});
-    ASSERT_TRUE(alone.solution);
+    const AnnotationsSolution alone = solved(left.views());
     const auto off_m = [&](const AnnotationsSolution& solution) {
       return (solution.rig_from_station.translation_m - left.camera_from_station.translation_m)
           .norm();
     };
-    single += off_m(*alone.solution);
-    together += off_m(*result.solution);
+    single += off_m(alone);
+    together += off_m(both);
     const auto stated = [](const AnnotationsSolution& solution) {
       return solution.covariance.trace() / (solution.noise_factor * solution.noise_factor);
     };
-    EXPECT_LT(stated(*result.solution), stated(*alone.solution));
+    EXPECT_LT(stated(both), stated(alone));
   }
   EXPECT_LT(together, 0.7 * single);
 }
@@ -209,36 +194,30 @@ TEST(SolveAnnotations, Rig_IsSolvedTogether) {
 TEST(SolveAnnotations, RigFrame_DoesNotChangeTheSolution) {
   Random random = randomFor("SolveMarks.RigFrame");
   AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 8, 0, 0.5);
-  const AnnotationsResult plain = solveAnnotations(scene.views(), {});
+  const AnnotationsSolution plain = solved(scene.views());
   scene.view.camera_from_rig = test::randomPose(random);
-  const AnnotationsResult framed = solveAnnotations(scene.views(), {});
-  ASSERT_TRUE(plain.solution && framed.solution);
-  EXPECT_LT(distance(plain.solution->rig_from_station, framed.solution->camera_from_station[0]),
-            1e-8);
-  const Matrix6d covariance = cameraCovariance(*framed.solution, scene.view);
-  EXPECT_LT((covariance - plain.solution->covariance).norm(),
-            1e-6 * plain.solution->covariance.norm());
+  const AnnotationsSolution framed = solved(scene.views());
+  ASSERT_EQ(framed.camera_from_station.size(), 1u);
+  EXPECT_LT(distance(plain.rig_from_station, framed.camera_from_station[0]), 1e-8);
+  EXPECT_LT((cameraCovariance(framed, scene.view) - plain.covariance).norm(),
+            1e-6 * plain.covariance.norm());
 }
 
 TEST(SolveAnnotations, LeavingOneOutIsSolvingWithoutIt) {
   Random random = randomFor("SolveMarks.LeaveOneOut");
-  AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
-  const AnnotationsResult whole = solveAnnotations(scene.views(), {});
-  ASSERT_TRUE(whole.solution);
-  const std::vector<LeftOut> left_out = leaveOneOut(scene.views(), *whole.solution);
+  const AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
+  const AnnotationsSolution whole = solved(scene.views());
+  const std::vector<LeftOut> left_out = leaveOneOut(scene.views(), whole);
   ASSERT_EQ(left_out.size(), 8u);
   for (std::size_t i = 0; i < 6; ++i) {
     AnnotatedScene without = scene;
     without.view.annotations.points[i].enabled = false;
-    const AnnotationsResult result = solveAnnotations(without.views(), {});
-    ASSERT_TRUE(result.solution && left_out[i].determined);
-    const double rotation_mrad =
-        1000.0 * rotationLog((result.solution->rig_from_station.rotation *
-                              whole.solution->rig_from_station.rotation.conjugate())
-                                 .normalized())
-                     .norm();
+    ASSERT_TRUE(left_out[i].determined);
+    const double rotation_rad =
+        solved(without.views())
+            .rig_from_station.rotation.angularDistance(whole.rig_from_station.rotation);
     // Steps on lines converge linearly: they hold the lines' scale fixed.
-    EXPECT_NEAR(left_out[i].rotation_mrad, rotation_mrad, 1e-4);
+    EXPECT_NEAR(left_out[i].rotation_mrad, 1000.0 * rotation_rad, 1e-4);
     EXPECT_GT(left_out[i].translation_mm, 0.0);
   }
 }
@@ -248,33 +227,25 @@ TEST(SolveAnnotations, LeaveOneOut_WithoutRedundancy_IsUndetermined) {
   const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
   SolveAnnotationsOptions options;
   options.rig_from_station_guess = scene.camera_from_station;
-  const AnnotationsResult result = solveAnnotations(scene.views(), options);
-  ASSERT_TRUE(result.solution) << result.reason;
-  EXPECT_EQ(result.solution->degrees_of_freedom, 0);
-  EXPECT_EQ(result.solution->noise_factor, 1.0);
-  for (const LeftOut& left_out : leaveOneOut(scene.views(), *result.solution))
+  const AnnotationsSolution solution = solved(scene.views(), options);
+  EXPECT_EQ(solution.degrees_of_freedom, 0);
+  EXPECT_EQ(solution.noise_factor, 1.0);
+  for (const LeftOut& left_out : leaveOneOut(scene.views(), solution))
     EXPECT_FALSE(left_out.determined);
 }
 
 TEST(SolveAnnotations, DisabledOrIncompletePairs_AreNotUsed) {
   Random random = randomFor("SolveMarks.Off");
   AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 6, 0, 0.4);
-  const AnnotationsResult before = solveAnnotations(scene.views(), {});
-  PointPair wrong;
-  wrong.id = "off";
-  wrong.enabled = false;
-  wrong.pixel = Eigen::Vector2d(1.0, 2.0);
-  wrong.point_in_station_m = Eigen::Vector3d(1.0, 2.0, 3.0);
-  scene.view.annotations.points.insert(scene.view.annotations.points.begin(), wrong);
-  wrong.id = "half";
-  wrong.enabled = true;
-  wrong.pixel.reset();
-  scene.view.annotations.points.push_back(wrong);
-  const AnnotationsResult after = solveAnnotations(scene.views(), {});
-  ASSERT_TRUE(before.solution && after.solution);
-  EXPECT_EQ(before.solution->rig_from_station, after.solution->rig_from_station);
-  EXPECT_EQ(after.solution->annotations[0].address,
-            (AnnotationAddress{0, AnnotationKind::kPoint, 1}));
+  const AnnotationsSolution before = solved(scene.views());
+  auto& points = scene.view.annotations.points;
+  const Eigen::Vector3d place_m(1.0, 2.0, 3.0);
+  points.insert(points.begin(), {"off", place_m, Eigen::Vector2d(1.0, 2.0), 1.0, false, false, ""});
+  points.push_back({"half", place_m, {}, 1.0, true, false, ""});
+  const AnnotationsSolution after = solved(scene.views());
+  EXPECT_EQ(before.rig_from_station, after.rig_from_station);
+  ASSERT_FALSE(after.annotations.empty());
+  EXPECT_EQ(after.annotations[0].address, (AnnotationAddress{0, AnnotationKind::kPoint, 1}));
 }
 
 TEST(SolveAnnotations, SaysWhyThereIsNoPose) {
@@ -311,9 +282,7 @@ TEST_P(SolveAnnotationsStatistics, NormalizedErrorSquaredHasTheRightMean) {
         randomScene(random, setting.model, setting.points, setting.lines, setting.noise_px);
     for (PointPair& point : scene.view.annotations.points) point.sigma_px *= setting.stated_factor;
     for (LinePair& line : scene.view.annotations.lines) line.sigma_px *= setting.stated_factor;
-    const AnnotationsResult result = solveAnnotations(scene.views(), {});
-    ASSERT_TRUE(result.solution) << result.reason;
-    const AnnotationsSolution& solution = *result.solution;
+    const AnnotationsSolution solution = solved(scene.views());
     freedom = solution.degrees_of_freedom;
     ASSERT_EQ(freedom, 2 * (setting.points + setting.lines) - 6);
     const Vector6d error =

@@ -12,8 +12,6 @@
 namespace boresight::test {
 namespace {
 
-using sessions::PixelPair;
-
 bool packageIsInstalled() {
   if (std::system("node --version >/dev/null 2>&1") != 0) return false;
   const std::string probe = "cd '" + std::string(BORESIGHT_MATCHERS) +
@@ -68,10 +66,10 @@ TEST(Loftr, FindsAShift) {
   const ImageView first{whole.data, whole.width - kShift, whole.height - kShift, whole.stride};
   const ImageView second{whole.row(kShift) + kShift, first.width, first.height, whole.stride};
   sessions::MatcherClient client(command, 120.0, {});
-  const std::vector<PixelPair> pairs = client.match(first, second, 400, 120.0, {});
+  const auto pairs = client.match(first, second, 400, 120.0, {});
   ASSERT_GT(pairs.size(), 30u);
   std::vector<double> dx, dy;
-  for (const PixelPair& pair : pairs) {
+  for (const auto& pair : pairs) {
     dx.push_back(pair.second_x - pair.first_x);
     dy.push_back(pair.second_y - pair.first_y);
   }
@@ -91,7 +89,7 @@ TEST(Loftr, TakesKeyPointsOfAWholeModelInPixelsOfTheImages) {
       {});
   EXPECT_EQ(client.width(), 1024);
   EXPECT_EQ(client.height(), 1024);
-  const std::vector<PixelPair> pairs = client.match(first.view(), second.view(), 10, 120.0, {});
+  const auto pairs = client.match(first.view(), second.view(), 10, 120.0, {});
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_NEAR(pairs[0].first_x, 200.0 + 0.125, 0.3);
   EXPECT_NEAR(pairs[0].first_y, 100.0, 0.3);

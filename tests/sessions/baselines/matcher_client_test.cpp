@@ -2,17 +2,14 @@
 // What a matcher may do wrong costs one sentence.
 #include "sessions/baselines/matcher_client.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <thread>
 
+#include "tests/support/matchers.h"
+
 namespace boresight::sessions {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 std::string matcherCommand(const std::string& what) {
   return std::string("'") + BORESIGHT_TEST_MATCHER + "' " + what;
@@ -40,7 +37,7 @@ std::string sentenceOf(const std::string& command, double timeout_s = 20.0,
   return "";
 }
 
-TEST(MatcherClient, GivesWhatTheMatcherFound) {
+TEST(MatcherClient, GivesWhatTheMatcherFoundInSmallAndLargeImages) {
   const Gray first(64, 48, 100), second(80, 60, 50);
   MatcherClient client(matcherCommand("shift 3 -2"), 20.0, {});
   EXPECT_EQ(client.name(), "test");
@@ -56,12 +53,8 @@ TEST(MatcherClient, GivesWhatTheMatcherFound) {
     }
   }
   EXPECT_EQ(client.match(first.view, second.view, 5, 20.0, {}).size(), 5u);
-}
-
-TEST(MatcherClient, TakesLargeImages) {
-  const Gray first(2048, 2048, 1), second(2048, 2048, 2);
-  MatcherClient client(matcherCommand("shift"), 20.0, {});
-  EXPECT_EQ(client.match(first.view, second.view, 100000, 60.0, {}).size(), 128u * 128u);
+  const Gray large(2048, 2048, 1), other(2048, 2048, 2);
+  EXPECT_EQ(client.match(large.view, other.view, 100000, 60.0, {}).size(), 128u * 128u);
 }
 
 TEST(MatcherClient, TellsHowItDied) {
@@ -74,9 +67,8 @@ TEST(MatcherClient, TellsHowItDied) {
 }
 
 TEST(MatcherClient, DoesNotWaitForOneThatHangs) {
-  EXPECT_THAT(sentenceOf(matcherCommand("hang"), 0.5), HasSubstr("did not answer in time"));
-  EXPECT_THAT(sentenceOf(matcherCommand("mute"), 0.5), HasSubstr("did not answer in time"));
-  EXPECT_THAT(sentenceOf(matcherCommand("half"), 0.5), HasSubstr("did not answer in time"));
+  for (const char* what : {"hang", "mute", "half"})
+    EXPECT_THAT(sentenceOf(matcherCommand(what), 0.5), HasSubstr("did not answer in time")) << what;
 }
 
 TEST(MatcherClient, DoesNotWaitForOneThatTakesNoInput) {

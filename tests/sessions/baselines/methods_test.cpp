@@ -3,18 +3,16 @@
 // them: the shaded object before a noisy background.
 #include "sessions/baselines/methods.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/trace/scene_render.h"
 #include "tests/support/example_case.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
 
-using sessions::Methods;
-using sessions::MethodSetup;
-using testing::HasSubstr;
+using namespace sessions;
 
 /// The example's orbiting sample, its photograph replaced by its own shaded render.
 struct RenderedCase : ExampleCase {
@@ -22,10 +20,9 @@ struct RenderedCase : ExampleCase {
     std::vector<std::uint8_t> shaded(image.pixels.size());
     SurfaceRender surfaces;
     surfaces.intensity = shaded;
-    sessions::RenderTrace edges;
-    EXPECT_EQ(
-        sessions::renderScene(camera, scene.view(), truth.camera_from_station, edges, surfaces),
-        Status::kOk);
+    RenderTrace edges;
+    EXPECT_EQ(renderScene(camera, scene.view(), truth.camera_from_station, edges, surfaces),
+              Status::kOk);
     std::uint32_t state = 1;
     for (std::size_t i = 0; i < shaded.size(); ++i) {
       state = state * 1664525u + 1013904223u;
@@ -50,12 +47,6 @@ LocalizerOptions matchesAlone() {
   return options;
 }
 
-sessions::RunSettings summary() {
-  sessions::RunSettings settings;
-  settings.level = sessions::RecordLevel::kFull;
-  return settings;
-}
-
 MethodSetup withMatcher(const std::string& what) {
   MethodSetup setup;
   setup.matcher = "'" BORESIGHT_TEST_MATCHER "' " + what;
@@ -66,41 +57,32 @@ MethodSetup withMatcher(const std::string& what) {
 
 TEST(Methods, KnowsTheirNames) {
   for (const char* name : {"whs", "ncc", "ssd", "orb", "external", "loftr-r", "loftr-s"}) {
-    EXPECT_TRUE(sessions::isMethod(name)) << name;
-    EXPECT_THAT(sessions::methodNames(), HasSubstr(name));
+    EXPECT_TRUE(isMethod(name)) << name;
+    EXPECT_THAT(methodNames(), HasSubstr(name));
   }
-  EXPECT_FALSE(sessions::isMethod("sift"));
-  EXPECT_TRUE(sessions::needsMatcher("loftr-s"));
-  EXPECT_FALSE(sessions::needsMatcher("ncc"));
+  EXPECT_FALSE(isMethod("sift"));
+  EXPECT_TRUE(needsMatcher("loftr-s"));
+  EXPECT_FALSE(needsMatcher("ncc"));
 }
 
 TEST(Methods, WhsIsTheVerySame) {
-  const ExampleCase example("os");
-  Methods methods({});
-  const auto one = methods.localize("whs", example.problem(), defaultProfile(), summary());
-  const auto other = sessions::localize(example.problem(), defaultProfile(), summary());
+  const LocalizationProblem problem = osExample().problem();
+  const auto one = Methods({}).localize("whs", problem, defaultProfile(), {});
+  const auto other = localize(problem, defaultProfile(), RecordLevel::kSummary);
   EXPECT_TRUE(one.converged());
   EXPECT_EQ(one.digest, other.digest);
 }
 
-TEST(Methods, FindTheTruthWhereTheImageIsARender) {
+TEST(Methods, FindTheTruthWhereTheImageIsARenderAndTheSameEveryTime) {
   const RenderedCase rendered;
   EXPECT_GT(rendered.errorOf(rendered.seed.camera_from_station), 2e-3);
   Methods methods({});
   for (const char* name : {"ncc", "ssd", "orb"}) {
-    const auto trace = methods.localize(name, rendered.problem(), matchesAlone(), summary());
+    const auto trace = methods.localize(name, rendered.problem(), matchesAlone(), {});
     EXPECT_TRUE(trace.converged()) << name << ": " << localizationStatusText(trace.status);
     EXPECT_LT(rendered.errorOf(trace.camera_from_station), 1e-3) << name;
-  }
-}
-
-TEST(Methods, AreTheSameEveryTime) {
-  const RenderedCase rendered;
-  Methods methods({});
-  for (const char* name : {"ncc", "orb"}) {
-    const auto one = methods.localize(name, rendered.problem(), matchesAlone(), summary());
-    const auto other = methods.localize(name, rendered.problem(), matchesAlone(), summary());
-    EXPECT_EQ(one.digest, other.digest) << name;
+    const auto again = methods.localize(name, rendered.problem(), matchesAlone(), {});
+    EXPECT_EQ(again.digest, trace.digest) << name;
   }
 }
 
@@ -108,8 +90,7 @@ TEST(Methods, TakeTheOptionsOfTheirOwn) {
   const RenderedCase rendered;
   MethodSetup setup;
   setup.options.orb.features = 120;
-  Methods methods(setup);
-  const auto trace = methods.localize("orb", rendered.problem(), matchesAlone(), summary());
+  const auto trace = Methods(setup).localize("orb", rendered.problem(), matchesAlone(), {});
   EXPECT_EQ(trace.options.templates.count, 120);
   ASSERT_FALSE(trace.iterations.empty());
   for (const auto& iteration : trace.iterations) EXPECT_LE(iteration->template_count, 120);
@@ -117,14 +98,13 @@ TEST(Methods, TakeTheOptionsOfTheirOwn) {
 
 TEST(ExternalMethod, MatchesThatDoNotMoveKeepTheSeed) {
   // Points, pixels and levels are right if a match at its own place means no correction.
-  const ExampleCase example("os");
+  LocalizerOptions options = matchesAlone();
+  options.loop.max_rolled_hypotheses = 1;
   for (const char* name : {"external", "loftr-s"}) {
-    Methods methods(withMatcher("shift"));
-    LocalizerOptions options = matchesAlone();
-    options.loop.max_rolled_hypotheses = 1;
-    const auto trace = methods.localize(name, example.problem(), options, summary());
+    const auto trace =
+        Methods(withMatcher("shift")).localize(name, osExample().problem(), options, {});
     EXPECT_TRUE(trace.converged()) << localizationStatusText(trace.status);
-    const Pose& seed = example.seed.camera_from_station;
+    const Pose& seed = osExample().seed.camera_from_station;
     EXPECT_LT((trace.camera_from_station.translation_m - seed.translation_m).norm(), 1e-6);
     ASSERT_FALSE(trace.iterations.empty());
     EXPECT_GT(trace.iterations.back()->pnp.inlier_count, 20) << name;
@@ -132,12 +112,11 @@ TEST(ExternalMethod, MatchesThatDoNotMoveKeepTheSeed) {
 }
 
 TEST(ExternalMethod, OneThatFailsCostsItsRunAlone) {
-  const ExampleCase example("os");
+  const LocalizationProblem problem = osExample().problem();
   for (const char* what : {"die", "hang", "babble"}) {
     Methods methods(withMatcher(what));
     for (int i = 0; i < 2; ++i)
-      EXPECT_THROW(methods.localize("external", example.problem(), matchesAlone(), summary()),
-                   sessions::MethodError)
+      EXPECT_THROW(methods.localize("external", problem, matchesAlone(), {}), MethodError)
           << what << ": a new matcher is started, and fails again";
   }
 }

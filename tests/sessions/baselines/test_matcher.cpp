@@ -19,6 +19,7 @@ struct Images {
   std::vector<std::uint8_t> pixels[2];
 };
 
+/// The number after the first `name` at or after a place, which moves behind the name.
 int numberAfter(const std::string& text, const char* name, std::size_t& from) {
   from = text.find(name, from);
   if (from == std::string::npos) std::exit(5);

@@ -47,21 +47,18 @@ TEST_F(CalibratedValuesTest, HaveBothCamerasAndTheChangeInSigmas) {
   EXPECT_DOUBLE_EQ(values[4].changeInSigmas(), -0.5);
 }
 
-TEST_F(CalibratedValuesTest, ChangeWithinThreeSigma_IsNotNeeded) {
+TEST_F(CalibratedValuesTest, ChangeWithinThreeSigma_IsNotNeededAndWithoutSigmasNotMentioned) {
   EXPECT_EQ(changeText(calibratedValues(before, calibration)),
             "No change is needed: the largest, of the focal length, is 2.0 sigma.");
   calibration.camera.distortion[1] = -0.07;  // minus 5 sigma
   EXPECT_THAT(changeText(calibratedValues(before, calibration)),
               testing::StartsWith("The distortion k2 changes by 5.0 sigma"));
-}
-
-TEST_F(CalibratedValuesTest, WhatIsNotDetermined_SaysNothingOfAChange) {
   for (CalibrationParameter& parameter : calibration.parameters)
     parameter.sigma = std::numeric_limits<double>::infinity();
-  const auto values = calibratedValues(before, calibration);
-  EXPECT_FALSE(values[0].isDetermined());
-  EXPECT_EQ(values[0].changeInSigmas(), 0.0);
-  EXPECT_EQ(changeText(values), "");
+  const auto undetermined = calibratedValues(before, calibration);
+  EXPECT_FALSE(undetermined[0].isDetermined());
+  EXPECT_EQ(undetermined[0].changeInSigmas(), 0.0);
+  EXPECT_EQ(changeText(undetermined), "");
 }
 
 TEST(DirectionText, NamesTheParametersForPeople) {

@@ -13,19 +13,9 @@
 namespace boresight::sessions {
 namespace {
 
-using boresight::test::randomFor;
-
 Camera trueCamera(CameraModel model = CameraModel::kPinhole) {
-  Camera camera;
-  camera.model = model;
-  camera.width = 1280;
-  camera.height = 960;
-  camera.fx = camera.fy = 1500.0;
-  camera.cx = 640.0;
-  camera.cy = 480.0;
-  if (model == CameraModel::kBrownConrady) camera.distortion = {-0.1, 0.03, 1e-4, -2e-4, 0.0};
-  EXPECT_EQ(prepareCamera(camera), Status::kOk);
-  return camera;
+  if (model == CameraModel::kPinhole) return test::makePinhole(1280, 960, 1500.0);
+  return test::makeCamera(model, 1280, 960, 1500.0, {-0.1, 0.03, 1e-4, -2e-4, 0.0});
 }
 
 /// A station of 30 points seen from `count` places at 0.3 to 0.8 m, all around and rolled.
@@ -43,40 +33,38 @@ std::vector<CalibrationView> viewsOf(const Camera& camera, int count, double noi
     pose.translation_m = {random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
                           random.uniform(0.3, 0.8)};
     CalibrationView& view = views.emplace_back();
-    view.camera_from_station = pose;
     for (const Eigen::Vector3d& point : points) {
       Eigen::Vector2d pixel;
       if (!project(camera, pose * point, pixel)) continue;
       pixel += noise_px * Eigen::Vector2d(random.normal(), random.normal());
       view.points.push_back({point, pixel, Eigen::Vector2d::Zero(), noise_px});
     }
-    Vector6d off;
-    for (int i = 0; i < 6; ++i) off[i] = 0.003 * random.normal();
-    view.camera_from_station = perturbed(off, pose);  // where the adjustment begins
+    // Where the adjustment begins.
+    view.camera_from_station = perturbed(0.003 * test::normalVector6(random), pose);
   }
   return views;
 }
 
 /// Errors in units of the stated sigma, of 200 sets.
 TEST(CameraCalibration, TruthLiesWithinThreeSigma) {
-  Random random = randomFor("CameraCalibration.ThreeSigma");
+  Random random = test::randomFor("CameraCalibration.ThreeSigma");
   const Camera truth = trueCamera();
+  Camera start = truth;
+  start.fx = start.fy = truth.fx * 1.01;
+  start.cx += 4.0;
+  start.cy -= 3.0;
+  const std::map<std::string, double> expected = {
+      {"focal_relative", 1.0 / 1.01 - 1.0}, {"centre_x_px", -4.0}, {"centre_y_px", 3.0}};
   std::map<std::string, int> outside;
   std::map<std::string, double> squares;
   constexpr int kTrials = 200;
   for (int trial = 0; trial < kTrials; ++trial) {
     const auto views = viewsOf(truth, 8, 0.3, random);
-    Camera start = truth;
-    start.fx = start.fy = truth.fx * 1.01;
-    start.cx += 4.0;
-    start.cy -= 3.0;
     const CameraCalibration result = calibrateCamera(start, views, {});
     EXPECT_TRUE(result.undetermined.empty());
-    const std::map<std::string, double> expected = {
-        {"focal_relative", 1.0 / 1.01 - 1.0}, {"centre_x_px", -4.0}, {"centre_y_px", 3.0}};
     for (const CalibrationParameter& parameter : result.parameters) {
       const double error = (parameter.value - expected.at(parameter.name)) / parameter.sigma;
-      outside[parameter.name] += std::abs(error) > 3.0 ? 1 : 0;
+      outside[parameter.name] += std::abs(error) > 3.0;
       squares[parameter.name] += error * error;
     }
   }
@@ -88,17 +76,17 @@ TEST(CameraCalibration, TruthLiesWithinThreeSigma) {
 }
 
 TEST(CameraCalibration, DistortionIsFound) {
-  Random random = randomFor("CameraCalibration.Distortion");
+  Random random = test::randomFor("CameraCalibration.Distortion");
   const Camera truth = trueCamera(CameraModel::kBrownConrady);
   Camera start = truth;
   start.distortion = {-0.08, 0.0, 0.0, 0.0, 0.0};
   ASSERT_EQ(prepareCamera(start), Status::kOk);
   const auto views = viewsOf(truth, 12, 0.05, random);
   const CameraCalibration result = calibrateCamera(start, views, {true, true, true});
-  for (const CalibrationParameter& parameter : result.parameters) {
-    if (parameter.name != "k1") continue;
-    EXPECT_NEAR(parameter.value, -0.1, 4.0 * parameter.sigma);
-  }
+  for (const CalibrationParameter& parameter : result.parameters)
+    if (parameter.name == "k1") {
+      EXPECT_NEAR(parameter.value, -0.1, 4.0 * parameter.sigma);
+    }
   EXPECT_NEAR(result.rms_px, 0.05 * std::sqrt(2.0), 0.02);
   EXPECT_NEAR(result.noise_factor, 1.0, 0.1);
 }
@@ -106,7 +94,7 @@ TEST(CameraCalibration, DistortionIsFound) {
 /// From straight above a flat station at one distance, a longer focal length looks like a smaller
 /// distance.
 TEST(CameraCalibration, WhatTheImagesCannotDetermineIsNamed) {
-  Random random = randomFor("CameraCalibration.Undetermined");
+  Random random = test::randomFor("CameraCalibration.Undetermined");
   const Camera truth = trueCamera();
   auto views = viewsOf(truth, 4, 0.3, random);
   for (CalibrationView& view : views) {
@@ -134,7 +122,7 @@ TEST(CameraCalibration, IsUsedForTheCasesOfTheCamera) {
     if (session_case.id == "b") session_case.camera.fx = 1000.0;
     session.cases.push_back(session_case);
   }
-  Random random = randomFor("CameraCalibration.Used");
+  Random random = test::randomFor("CameraCalibration.Used");
   const CameraCalibration calibration =
       calibrateCamera(trueCamera(), viewsOf(trueCamera(), 8, 0.3, random), {});
   const Session next = withCalibration(session, "a", calibration);
@@ -148,7 +136,7 @@ TEST(CameraCalibration, IsUsedForTheCasesOfTheCamera) {
 }
 
 TEST(CameraCalibration, TooLittleIsRefused) {
-  Random random = randomFor("CameraCalibration.Refused");
+  Random random = test::randomFor("CameraCalibration.Refused");
   const Camera camera = trueCamera();
   auto views = viewsOf(camera, 1, 0.3, random);
   EXPECT_THROW((void)calibrateCamera(camera, views, {false, false, false}), std::invalid_argument);

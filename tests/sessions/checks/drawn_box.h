@@ -2,20 +2,29 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "sessions/checks/edge_evidence.h"
 #include "sessions/checks/review_subject.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::test {
+
+/// Of a pose that is known to this sigma along each of the camera's axes, and not turned.
+inline Matrix6d translationCovariance(double sigma_m) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(sigma_m * sigma_m);
+  return covariance;
+}
 
 /// A box of 12 x 8 x 5 cm half a metre from a camera of 800 x 600 pixels, that sees three of its
 /// faces, and an image of it drawn by OpenCV: no renderer of ours has a part in it.
@@ -25,6 +34,11 @@ class DrawnBox {
     camera_from_station_.rotation = rotationExp({2.4, 0.0, 0.0}) * rotationExp({0.0, 0.0, 0.6});
     camera_from_station_.translation_m = {0.01, -0.005, 0.5};
     draw();
+  }
+
+  /// The edges that the pose which was drawn predicts.
+  sessions::PredictedEdges edges() const {
+    return sessions::predictEdges(camera_, scene_.view(), camera_from_station_);
   }
 
   /// A subject with this image, to be checked at a pose of its own.
@@ -56,7 +70,7 @@ class DrawnBox {
       points.emplace_back(static_cast<int>(std::lround((corner.x() + 0.5) * kFine * 16.0 - 8.0)),
                           static_cast<int>(std::lround((corner.y() + 0.5) * kFine * 16.0 - 8.0)));
     cv::fillConvexPoly(fine_, points, cv::Scalar(gray), cv::LINE_8, 4);
-    reduce();
+    cv::resize(fine_, image_, cv::Size(camera_.width, camera_.height), 0, 0, cv::INTER_AREA);
   }
 
   /// A patch on the top face, `share` of it in either direction, and the length of its border, px.
@@ -85,7 +99,7 @@ class DrawnBox {
 
   void draw() {
     fine_ = cv::Mat(camera_.height * kFine, camera_.width * kFine, CV_8U, cv::Scalar(40));
-    std::array<std::array<bool, 8>, 8> known{};
+    std::set<std::pair<int, int>> known;
     int gray = 90;
     for (const auto& quad : kBoxQuads) {
       const Eigen::Vector3d a = camera_from_station_ * corner(quad[0]);
@@ -96,19 +110,12 @@ class DrawnBox {
       for (const int i : quad) corners.push_back(pixelOf(corner(i)));
       fill(corners, gray);
       gray += 50;
-      for (std::size_t i = 0; i < 4; ++i) note(quad[i], quad[(i + 1) % 4], known);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto [from, to] = std::minmax({quad[i], quad[(i + 1) % 4]});
+        if (known.emplace(from, to).second)
+          visible_px_ += (pixelOf(corner(from)) - pixelOf(corner(to))).norm();
+      }
     }
-  }
-
-  void note(int i, int j, std::array<std::array<bool, 8>, 8>& known) {
-    auto& seen =
-        known[static_cast<std::size_t>(std::min(i, j))][static_cast<std::size_t>(std::max(i, j))];
-    if (!seen) visible_px_ += (pixelOf(corner(i)) - pixelOf(corner(j))).norm();
-    seen = true;
-  }
-
-  void reduce() {
-    cv::resize(fine_, image_, cv::Size(camera_.width, camera_.height), 0, 0, cv::INTER_AREA);
   }
 
   cv::Mat fine_;

@@ -2,6 +2,7 @@
 // Edges of a box that OpenCV drew, asked at the pose that it was drawn from and at others.
 #include "sessions/checks/checks.h"
 
+#include <functional>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -15,23 +16,23 @@
 namespace boresight::sessions {
 namespace {
 
+using test::copyOf;
 using test::DrawnBox;
 using test::findCheck;
 
-std::vector<Check> edgeChecksOf(const ReviewSubject& subject) {
-  std::vector<Check> checks;
+std::vector<Check> edgeChecksOf(const ReviewSubject& subject, const CheckLimits& limits = {}) {
   const PredictedEdges edges = predictEdges(
       subject.loaded->source.camera, subject.loaded->scene.view(), subject.camera_from_station);
-  addEdgeChecks(subject, CheckLimits(), edges, checks);
-  return checks;
+  return test::addedChecks(addEdgeChecks, subject, limits, edges);
 }
 
-std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
-  auto copy = std::make_shared<LoadedCase>();
-  copy->source = loaded.source;
-  copy->scene = loaded.scene;
-  copy->image = loaded.image;
-  return copy;
+/// The subject with an image that OpenCV changes.
+ReviewSubject withPixels(ReviewSubject subject, const std::function<void(cv::Mat&)>& change) {
+  const auto loaded = copyOf(*subject.loaded);
+  cv::Mat pixels(loaded->image.height, loaded->image.width, CV_8U, loaded->image.pixels.data());
+  change(pixels);
+  subject.loaded = loaded;
+  return subject;
 }
 
 double figureOf(const std::vector<Check>& checks, const std::string& id) {
@@ -42,14 +43,15 @@ class EdgeChecks : public testing::Test {
  protected:
   /// At the pose that was drawn.
   ReviewSubject subject() const { return box.subject(box.camera_from_station_); }
-  PredictedEdges edges() const {
-    return predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
-  }
   /// The box's pose moved across the view so that the image moves by (x_px, y_px).
   Pose movedBy(double x_px, double y_px) const {
     Pose moved = box.camera_from_station_;
     moved.translation_m += 0.5 / 1000.0 * Eigen::Vector3d(x_px, y_px, 0.0);
     return moved;
+  }
+  /// Of the drawn image, where a pose predicts these.
+  ImageEdges imageEdges(const PredictedEdges& edges) const {
+    return {subject().loaded->image.view(), nullptr, regionOf(edges)};
   }
   void hideLeftHalf() {
     box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
@@ -71,53 +73,37 @@ TEST_F(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
 }
 
 TEST_F(EdgeChecks, BlurredImage_FailsBySharpness) {
-  const ReviewSubject sharp = subject();
-  EXPECT_LT(figureOf(edgeChecksOf(sharp), "edge_width"), 5.0);
-  const auto blurred = copyOf(*sharp.loaded);
-  cv::Mat pixels(blurred->image.height, blurred->image.width, CV_8U, blurred->image.pixels.data());
-  cv::blur(pixels, pixels, cv::Size(16, 1));
-  ReviewSubject subject = sharp;
-  subject.loaded = blurred;
-  const auto checks = edgeChecksOf(subject);
-  EXPECT_GT(figureOf(checks, "edge_width"), 10.0);
-  EXPECT_EQ(findCheck(checks, "edge_width").state, CheckState::kFailed);
-  std::vector<Check> of_image;
-  addImageChecks(subject, CheckLimits(), of_image);
+  EXPECT_LT(figureOf(edgeChecksOf(subject()), "edge_width"), 5.0);
+  const ReviewSubject blurred =
+      withPixels(subject(), [](cv::Mat& pixels) { cv::blur(pixels, pixels, cv::Size(16, 1)); });
+  const Check width = findCheck(edgeChecksOf(blurred), "edge_width");
+  EXPECT_GT(width.figure.value(), 10.0);
+  EXPECT_EQ(width.state, CheckState::kFailed);
+  const auto of_image = test::addedChecks(addImageChecks, blurred, CheckLimits());
   EXPECT_EQ(findCheck(of_image, "image_sharpness").state, CheckState::kFailed);
 }
 
-TEST(ImageChecks, GoodImagePassesAndSpoiledImagesFailByTheirOwnCheck) {
-  const DrawnBox box;
-  const auto checksWith = [&box](double factor, double offset) {
-    ReviewSubject subject = box.subject(box.camera_from_station_);
-    const auto spoiled = copyOf(*subject.loaded);
-    cv::Mat pixels(spoiled->image.height, spoiled->image.width, CV_8U,
-                   spoiled->image.pixels.data());
-    pixels.convertTo(pixels, CV_8U, factor, offset);
-    subject.loaded = spoiled;
-    std::vector<Check> checks;
-    addImageChecks(subject, CheckLimits(), checks);
-    return checks;
+TEST_F(EdgeChecks, GoodImagePassesAndSpoiledImagesFailByTheirOwnCheck) {
+  const auto checksWith = [this](double factor, double offset) {
+    const auto spoiled = withPixels(
+        subject(), [&](cv::Mat& pixels) { pixels.convertTo(pixels, CV_8U, factor, offset); });
+    return test::addedChecks(addImageChecks, spoiled, CheckLimits());
   };
   for (const Check& check : checksWith(1.0, 0.0))
     EXPECT_EQ(check.state, CheckState::kPassed) << check.id << ": " << check.sentence;
   EXPECT_EQ(findCheck(checksWith(1.0, 250.0), "image_saturated").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(checksWith(0.02, 100.0), "image_range").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(checksWith(0.02, 100.0), "image_sharpness").state,
-            CheckState::kNotApplicable);
+  const auto narrow = checksWith(0.02, 100.0);
+  EXPECT_EQ(findCheck(narrow, "image_range").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(narrow, "image_sharpness").state, CheckState::kNotApplicable);
 }
 
 TEST_F(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
-  const PredictedEdges edges = this->edges();
+  const PredictedEdges edges = box.edges();
   double length_px = 0.0;
   for (const EdgePlace& place : edges.places) length_px += place.length_px;
   EXPECT_NEAR(length_px, box.visibleLength_px(), 0.02 * box.visibleLength_px());
-  const ReviewSubject subject = this->subject();
-  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
-  double sum = 0.0;
-  double squares = 0.0;
-  double count = 0.0;
-  for (const LookedPlace& looked_place : lookAt(image, edges.places)) {
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (const LookedPlace& looked_place : lookAt(imageEdges(edges), edges.places)) {
     if (!looked_place.found || std::abs(looked_place.found->offset_px) > 1.0) continue;
     sum += looked_place.found->offset_px;
     squares += looked_place.found->offset_px * looked_place.found->offset_px;
@@ -184,17 +170,16 @@ TEST_F(EdgeChecks, IgnoredPixels_DoNotCount) {
 
 TEST_F(EdgeChecks, UndeterminedDirection_IsReported) {
   // Half of the image hidden so that parallel lines of one edge remain: it slides along itself.
-  const PredictedEdges edges = this->edges();
+  const PredictedEdges edges = box.edges();
   std::vector<EdgePlace> parallel;
   const Eigen::Vector2d along =
       (box.pixelOf({0.06, 0.04, 0.025}) - box.pixelOf({-0.06, 0.04, 0.025})).normalized();
   for (const EdgePlace& place : edges.places)
     if (std::abs(place.normal.dot(along)) < 0.1) parallel.push_back(place);
   ASSERT_GT(parallel.size(), 200U);
-  const ReviewSubject subject = this->subject();
-  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
   double most = 0.0;
-  for (const FallOff& fall_off : fallOffOf(image, parallel, box.camera_, box.camera_from_station_))
+  for (const FallOff& fall_off :
+       fallOffOf(imageEdges(edges), parallel, box.camera_, box.camera_from_station_))
     most = std::max(most, fall_off.coverage);
   EXPECT_GT(most, 0.85);
 }
@@ -205,14 +190,12 @@ TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   wrong.fx *= 1.03;
   wrong.fy *= 1.03;
   ASSERT_EQ(prepareCamera(wrong), Status::kOk);
-  const auto follow = poseByCamera(edges().places, box.camera_, box.camera_from_station_);
+  const auto follow = poseByCamera(box.edges().places, box.camera_, box.camera_from_station_);
   ASSERT_TRUE(follow);
   const Pose farther = perturbed(Vector6d(30.0 * follow->col(0)), box.camera_from_station_);
   EXPECT_NEAR(farther.translation_m.z(), 1.03 * 0.5, 0.003);
   const PredictedEdges wrong_edges = predictEdges(wrong, box.scene_.view(), farther);
-  const auto subject = box.subject(farther);
-  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(wrong_edges));
-  const auto fit = fitCamera(lookAt(image, wrong_edges.places), wrong, farther);
+  const auto fit = fitCamera(lookAt(imageEdges(wrong_edges), wrong_edges.places), wrong, farther);
   ASSERT_TRUE(fit);
   // Half a pixel of perspective is all that tells on so small a box.
   EXPECT_LT(fit->focal_px, -10.0);
@@ -222,22 +205,19 @@ TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
 
 TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
   ReviewSubject subject = this->subject();
-  const PredictedEdges edges = this->edges();
-  const auto focalCheck = [&](const CheckLimits& limits) {
-    std::vector<Check> checks;
-    addEdgeChecks(subject, limits, edges, checks);
-    return findCheck(checks, "camera_focal");
-  };
   CheckLimits limits;
   limits.focal_percent = 0.001;
-  EXPECT_EQ(focalCheck(limits).state, CheckState::kFailed);
+  const auto focalState = [&] {
+    return findCheck(edgeChecksOf(subject, limits), "camera_focal").state;
+  };
+  EXPECT_EQ(focalState(), CheckState::kFailed);
   const auto stated = copyOf(*subject.loaded);
   // Known, to five percent: what the edges ask for is within that.
   stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
   subject.loaded = stated;
-  EXPECT_EQ(focalCheck(limits).state, CheckState::kPassed);
+  EXPECT_EQ(focalState(), CheckState::kPassed);
   subject.requirement = {{}, {}, {}, 3.0};
-  EXPECT_EQ(focalCheck(limits).state, CheckState::kNotApplicable);
+  EXPECT_EQ(focalState(), CheckState::kNotApplicable);
 }
 
 TEST_F(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
@@ -246,9 +226,8 @@ TEST_F(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) 
   EXPECT_EQ(findCheck(edgeChecksOf(box.subject(behind)), "edge_coverage").state,
             CheckState::kFailed);
   ReviewSubject subject = this->subject();
-  auto other = std::make_shared<LoadedCase>();
-  other->source = subject.loaded->source;
-  other->scene = subject.loaded->scene;
+  const auto other = copyOf(*subject.loaded);
+  other->image = {};
   subject.loaded = other;
   for (const Check& check : edgeChecksOf(subject))
     EXPECT_EQ(check.state, CheckState::kNotApplicable) << check.id;

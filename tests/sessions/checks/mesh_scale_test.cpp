@@ -34,15 +34,13 @@ ReviewSubject rigOf(const Pose& camera_from_station, double scale, double sigma_
     for (int i = 0; i < 3; ++i) pose.translation_m[i] += sigma_m * random.normal();
     return pose;
   };
-  Matrix6d covariance = Matrix6d::Zero();
-  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(sigma_m * sigma_m);
   ReviewSubject subject;
   subject.camera_from_station =
       noisy(seenFrom(Eigen::Vector3d::Zero(), camera_from_station, scale));
-  subject.covariance.picture = covariance;
+  subject.covariance.picture = test::translationCovariance(sigma_m);
   for (const Eigen::Vector3d& centre_m : centres_m) {
     OtherPose other{"other", noisy(seenFrom(centre_m, camera_from_station, scale)), {}, centre_m};
-    other.covariance.picture = covariance;
+    other.covariance = subject.covariance;
     subject.other_cameras.push_back(other);
   }
   return subject;
@@ -86,9 +84,8 @@ TEST(MeshScale, SigmaIsTheScatter) {
 
 TEST(MeshScale, WithoutABaseline_IsUnknown) {
   Random random = test::randomFor("MeshScale.None");
-  EXPECT_FALSE(meshScaleByRig(rigOf(Pose(), 1.0, 1e-4, random, {}), kPoint_m));
-  EXPECT_FALSE(
-      meshScaleByRig(rigOf(Pose(), 1.0, 1e-4, random, {Eigen::Vector3d::Zero()}), kPoint_m));
+  for (const auto& centres_m : {std::vector<Eigen::Vector3d>(), {Eigen::Vector3d::Zero()}})
+    EXPECT_FALSE(meshScaleByRig(rigOf(Pose(), 1.0, 1e-4, random, centres_m), kPoint_m));
   ReviewSubject unknown = rigOf(Pose(), 1.0, 1e-4, random, {{0.1, 0.0, 0.0}});
   unknown.other_cameras[0].covariance = {};
   EXPECT_FALSE(meshScaleByRig(unknown, kPoint_m));
@@ -101,17 +98,13 @@ TEST(MeshScale, Check_FailsBeyondWhatIsKnown) {
   const auto checkWith = [&](double scale, double sigma_m) {
     ReviewSubject rig = subject;
     const Eigen::Vector3d centre_m(0.15, 0.0, 0.0);
-    Matrix6d covariance = Matrix6d::Zero();
-    covariance.bottomRightCorner<3, 3>().diagonal().setConstant(sigma_m * sigma_m);
     const Eigen::Vector3d sight_m = subject.camera_from_station * middle_m;
-    rig.covariance = {covariance, Matrix6d::Zero(), Matrix6d::Zero()};
+    rig.covariance.picture = test::translationCovariance(sigma_m);
     rig.camera_from_station.translation_m += (scale - 1.0) * sight_m;
     OtherPose other{"other", subject.camera_from_station, rig.covariance, centre_m};
     other.camera_from_station.translation_m += (scale - 1.0) * (sight_m - centre_m);
     rig.other_cameras = {other};
-    std::vector<Check> checks;
-    addAgreementChecks(rig, CheckLimits(), checks);
-    return test::findCheck(checks, "mesh_scale");
+    return test::findCheck(test::addedChecks(addAgreementChecks, rig, CheckLimits()), "mesh_scale");
   };
   EXPECT_EQ(checkWith(1.0, 1e-5).state, CheckState::kPassed);
   const Check wrong = checkWith(1.01, 1e-5);

@@ -8,35 +8,28 @@
 #include "tests/sessions/checks/drawn_box.h"
 #include "tests/sessions/checks/find_check.h"
 
-namespace boresight::test {
+namespace boresight::sessions {
 namespace {
-
-using sessions::CheckLimits;
-using sessions::PoseQuality;
-using sessions::PrecisionFigure;
-using sessions::ReviewSubject;
 
 /// A pose whose image gives this sigma along each of the camera's axes.
 class PoseQualityTest : public testing::Test {
  protected:
   void setSigma(double sigma_mm) {
-    subject_.covariance.picture.setZero();
-    subject_.covariance.picture.bottomRightCorner<3, 3>().diagonal().setConstant(1e-6 * sigma_mm *
-                                                                                 sigma_mm);
+    subject_.covariance.picture = test::translationCovariance(1e-3 * sigma_mm);
   }
   PoseQuality quality(double sigmas = 3.0) const { return poseQuality(subject_, sigmas); }
 
-  const DrawnBox box_;
+  const test::DrawnBox box_;
   ReviewSubject subject_ = box_.subject(box_.camera_from_station_);
 };
 
 TEST(OfLimitText, HasTwoDigitsOfTheLimitAndTellsTheNumbersApart) {
-  EXPECT_EQ(sessions::ofLimitText(0.3676, 0.4, "mm"), "0.37 of 0.40 mm");
-  EXPECT_EQ(sessions::ofLimitText(1.2, 0.4, "mm"), "1.20 of 0.40 mm");
-  EXPECT_EQ(sessions::ofLimitText(1.04, 4.363, "mrad"), "1.0 of 4.4 mrad");
-  EXPECT_EQ(sessions::ofLimitText(7.0, 25.0, "px"), "7 of 25 px");
-  EXPECT_EQ(sessions::ofLimitText(0.402, 0.4, "mm"), "0.402 of 0.400 mm") << "which is beyond it";
-  EXPECT_EQ(sessions::ofLimitText(0.4, 0.4, "mm"), "0.40 of 0.40 mm");
+  EXPECT_EQ(ofLimitText(0.3676, 0.4, "mm"), "0.37 of 0.40 mm");
+  EXPECT_EQ(ofLimitText(1.2, 0.4, "mm"), "1.20 of 0.40 mm");
+  EXPECT_EQ(ofLimitText(1.04, 4.363, "mrad"), "1.0 of 4.4 mrad");
+  EXPECT_EQ(ofLimitText(7.0, 25.0, "px"), "7 of 25 px");
+  EXPECT_EQ(ofLimitText(0.402, 0.4, "mm"), "0.402 of 0.400 mm") << "which is beyond it";
+  EXPECT_EQ(ofLimitText(0.4, 0.4, "mm"), "0.40 of 0.40 mm");
 }
 
 TEST_F(PoseQualityTest, HoldsAsLongAsTheWorstFigureDoes) {
@@ -67,13 +60,12 @@ TEST_F(PoseQualityTest, ScaleAndCalibration_AreIncluded) {
 TEST_F(PoseQualityTest, FiguresAreThoseOfTheChecks) {
   subject_.requirement = {0.5, 0.5, 0.25, 3.5};
   setSigma(0.1);
-  std::vector<sessions::Check> checks;
-  addPrecisionChecks(subject_, CheckLimits(), checks);
+  const auto checks = test::addedChecks(addPrecisionChecks, subject_, CheckLimits());
   for (const PrecisionFigure& figure : quality().figures) {
-    const sessions::Check check = findCheck(checks, figure.check.id);
+    const Check check = test::findCheck(checks, figure.check.id);
     EXPECT_EQ(check.figure, figure.found) << figure.check.id;
     EXPECT_EQ(check.limit, figure.required) << figure.check.id;
-    EXPECT_EQ(check.state == sessions::CheckState::kPassed, figure.holds()) << figure.check.id;
+    EXPECT_EQ(check.state == CheckState::kPassed, figure.holds()) << figure.check.id;
   }
 }
 
@@ -88,4 +80,4 @@ TEST_F(PoseQualityTest, WithoutCovarianceOrLimits_NothingHolds) {
 }
 
 }  // namespace
-}  // namespace boresight::test
+}  // namespace boresight::sessions

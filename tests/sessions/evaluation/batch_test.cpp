@@ -48,16 +48,15 @@ TEST(RunBatch, LocalizesTheExample) {
 TEST(RunBatch, MeasuresCorrectionsAtTheEndEffectorOfTheCase) {
   Dataset dataset = exampleDataset();
   dataset.cases.resize(1);
+  auto& camera_from_end_effector = dataset.cases.front().camera_from_end_effector;
+  camera_from_end_effector.reset();
   BatchOptions options = quick();
-  for (Case& dataset_case : dataset.cases) dataset_case.camera_from_end_effector.reset();
-  const std::string at_camera = runBatch(dataset, options, {}).front().digest;
+  std::set<std::string> digests = {runBatch(dataset, options, {}).front().digest};
   options.localizer.loop.correction_point = CorrectionPoint::kEndEffector;
   EXPECT_THAT(runBatch(dataset, options, {}).front().message,
               HasSubstr("no end effector is known"));
-  std::set<std::string> digests = {at_camera};
   for (const double ahead_m : {0.3, 0.4}) {
-    for (Case& dataset_case : dataset.cases)
-      dataset_case.camera_from_end_effector.emplace().translation_m.z() = ahead_m;
+    camera_from_end_effector.emplace().translation_m.z() = ahead_m;
     digests.insert(runBatch(dataset, options, {}).front().digest);
   }
   EXPECT_EQ(digests.size(), 3u);
@@ -74,9 +73,7 @@ TEST(RunBatch, GivesTheSameInTheSameOrderForAnyNumberOfJobs) {
                                    EXPECT_EQ(done, ++told);
                                    EXPECT_EQ(total, 6u);
                                  });
-  ASSERT_EQ(alone.size(), 6u);
-  ASSERT_EQ(together.size(), 6u);
-  EXPECT_EQ(told, 6u);
+  ASSERT_TRUE(alone.size() == 6 && together.size() == 6 && told == 6);
   for (std::size_t i = 0; i < alone.size(); ++i) {
     EXPECT_EQ(alone[i].case_id, together[i].case_id);
     EXPECT_EQ(alone[i].reseed, static_cast<std::int32_t>(i % 3));
@@ -140,19 +137,7 @@ TEST(RunBatch, RunsWithinTheMemoryOfOneThread) {
     EXPECT_EQ(result.status, "converged") << result.message;
 }
 
-TEST(RunBatch, FiltersByCaseStationAndTag) {
-  const Dataset dataset = exampleDataset();
-  BatchOptions options = quick();
-  options.stations = {"os"};
-  ASSERT_EQ(runBatch(dataset, options, {}).size(), 1u);
-  options.stations.clear();
-  options.tags = {"half_size"};
-  EXPECT_EQ(runBatch(dataset, options, {}).size(), 2u);
-  options.cases = {dataset.cases.front().id};
-  EXPECT_EQ(runBatch(dataset, options, {}).front().case_id, dataset.cases.front().id);
-}
-
-TEST(RunBatch, RefusesFiltersThatNameNothing) {
+TEST(RunBatch, FiltersByCaseStationAndTagAndRefusesWhatNamesNothing) {
   const Dataset dataset = exampleDataset();
   for (auto filter : {&BatchOptions::cases, &BatchOptions::stations, &BatchOptions::tags}) {
     BatchOptions options = quick();
@@ -162,30 +147,38 @@ TEST(RunBatch, RefusesFiltersThatNameNothing) {
   BatchOptions options = quick();
   options.mesh_of = "moon";
   EXPECT_THROW(runBatch(dataset, options, {}), InputError);
+  options.mesh_of = "os";
+  const auto of_another_mesh = runBatch(dataset, options, {});
+  ASSERT_EQ(of_another_mesh.size(), 1u);
+  EXPECT_EQ(of_another_mesh.front().station, "bc");
+  EXPECT_EQ(of_another_mesh.front().success, false);
+  options = quick();
+  options.stations = {"os"};
+  EXPECT_EQ(runBatch(dataset, options, {}).size(), 1u);
+  options.stations.clear();
+  options.tags = {"half_size"};
+  EXPECT_EQ(runBatch(dataset, options, {}).size(), 2u);
+  options.cases = {dataset.cases.front().id};
+  EXPECT_EQ(runBatch(dataset, options, {}).front().case_id, dataset.cases.front().id);
 }
 
-TEST(RunBatch, GoesOnAfterABadCase) {
+TEST(RunBatch, GoesOnAfterABadImageOrSeed) {
   Dataset dataset = exampleDataset();
+  dataset.cases.push_back(dataset.cases.front());
+  dataset.cases.back().id = "sees nothing";
+  dataset.cases.back().seed_camera_from_station.translation_m = {5.0, 0.0, 0.4};
   dataset.cases.front().image = dataset.cases.front().image.parent_path() / "missing.png";
   BatchOptions options = quick();
   options.reseeds = 1;
   const auto results = runBatch(dataset, options, {});
-  ASSERT_EQ(results.size(), 4u);
-  EXPECT_TRUE(results[0].inputFailed());
-  EXPECT_TRUE(results[1].inputFailed());
+  ASSERT_EQ(results.size(), 6u);
+  EXPECT_TRUE(results[0].inputFailed() && results[1].inputFailed());
   EXPECT_THAT(results[0].message, HasSubstr("missing.png"));
   EXPECT_FALSE(results[2].inputFailed());
-}
-
-TEST(RunBatch, ReportsASeedThatSeesNothing) {
-  Dataset dataset = exampleDataset();
-  dataset.cases.resize(1);
-  dataset.cases.front().seed_camera_from_station.translation_m = {5.0, 0.0, 0.4};
-  const auto results = runBatch(dataset, quick(), {});
-  EXPECT_EQ(results.front().status, "bad_seed");
-  EXPECT_THAT(results.front().message, HasSubstr("out of view"));
-  EXPECT_FALSE(results.front().completed);
-  EXPECT_EQ(results.front().success, false);
+  EXPECT_EQ(results[4].status, "bad_seed");
+  EXPECT_THAT(results[4].message, HasSubstr("out of view"));
+  EXPECT_FALSE(results[4].completed);
+  EXPECT_EQ(results[4].success, false);
 }
 
 TEST(RunBatch, StopsBetweenRuns) {
@@ -222,8 +215,7 @@ TEST(RunBatch, SaysWhatEachStepDid) {
   options.stations = {"bc"};
   options.keep_matches = true;
   const RunResult result = runBatch(dataset, options, {}).front();
-  ASSERT_FALSE(result.steps.empty());
-  const RunStep& first = result.steps.front();
+  const RunStep& first = result.steps.at(0);
   EXPECT_EQ(first.kind, "match");
   EXPECT_EQ(first.details.size(), static_cast<std::size_t>(first.templates));
   ASSERT_TRUE(first.error.has_value());
@@ -260,15 +252,6 @@ TEST(PlanBatch, PutsEveryCaseInExactlyOneShardWithAllItsSeeds) {
   options.shards = 100;
   options.shard = 100;
   EXPECT_TRUE(planBatch(dataset, options).empty());
-}
-
-TEST(RunBatch, TakesAnotherStationsMeshWhenAsked) {
-  BatchOptions options = quick();
-  options.mesh_of = "os";
-  const auto results = runBatch(exampleDataset(), options, {});
-  ASSERT_EQ(results.size(), 1u);
-  EXPECT_EQ(results.front().station, "bc");
-  EXPECT_EQ(results.front().success, false);
 }
 
 TEST(DurationText, ReadsAsAWait) {

@@ -17,11 +17,6 @@
 namespace boresight::sessions {
 namespace {
 
-using test::preparedCamera;
-using test::randomFor;
-using test::randomPose;
-using test::TemporaryFolder;
-
 /// With the ids 1, 2, ...
 std::vector<BopObject> objectsOf(const std::vector<PosedImage>& images) {
   std::vector<BopObject> objects;
@@ -31,10 +26,10 @@ std::vector<BopObject> objectsOf(const std::vector<PosedImage>& images) {
 }
 
 TEST(BopScene, RoundTrip_IsEqual) {
-  const TemporaryFolder folder;
-  Random random = randomFor("BopScene.ComesBack");
+  const test::TemporaryFolder folder;
+  Random random = test::randomFor("BopScene.ComesBack");
   const std::vector<PosedImage> images =
-      test::randomImages(random, {preparedCamera(CameraModel::kPinhole, {})}, 8);
+      test::randomImages(random, {test::preparedCamera(CameraModel::kPinhole, {})}, 8);
   writeBopScene(folder / "", objectsOf(images));
   const std::vector<BopObject> read = readBopScene(folder / "");
   ASSERT_EQ(read.size(), images.size());
@@ -50,10 +45,10 @@ TEST(BopScene, RoundTrip_IsEqual) {
 }
 
 TEST(BopScene, Layout_IsThatOfTheBopToolkit) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   PosedImage image;
   image.id = 3;
-  image.camera = preparedCamera(CameraModel::kPinhole, {});
+  image.camera = test::preparedCamera(CameraModel::kPinhole, {});
   image.camera_from_station.translation_m = {0.0625, -0.125, 0.5};
   image.camera_from_station.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   writeBopScene(folder / "", objectsOf({image}));
@@ -69,17 +64,17 @@ TEST(BopScene, Layout_IsThatOfTheBopToolkit) {
 }
 
 TEST(BopScene, UnsupportedCamera_IsRefused) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   PosedImage image;
-  image.camera = preparedCamera(CameraModel::kBrownConrady, {-0.1});
+  image.camera = test::preparedCamera(CameraModel::kBrownConrady, {-0.1});
   EXPECT_THAT(folder.message([&] { writeBopScene(folder / "", objectsOf({image})); }),
               HasSubstr("undistort"));
-  image.camera = preparedCamera(CameraModel::kPinhole, {});
+  image.camera = test::preparedCamera(CameraModel::kPinhole, {});
   EXPECT_THROW(writeBopScene(folder / "", objectsOf({image, image})), OutputError);
 }
 
 TEST(BopScene, NamesWhatIsWrong) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto error = [&folder](const std::string& cameras, const std::string& objects) {
     folder.write("scene_camera.json", cameras);
     folder.write("scene_gt.json", objects);
@@ -103,8 +98,8 @@ TEST(BopScene, NamesWhatIsWrong) {
 std::vector<BopResult> randomResults(Random& random, int count) {
   std::vector<BopResult> results;
   for (int i = 0; i < count; ++i)
-    results.push_back({1 + i / 4, i % 4, 1 + i % 3, random.uniform(0.0, 1.0), randomPose(random),
-                       i % 2 == 0 ? -1.0 : 0.25});
+    results.push_back({1 + i / 4, i % 4, 1 + i % 3, random.uniform(0.0, 1.0),
+                       test::randomPose(random), i % 2 == 0 ? -1.0 : 0.25});
   return results;
 }
 
@@ -115,10 +110,16 @@ std::vector<std::string> splitAt(const std::string& text, char sign) {
   return parts;
 }
 
+std::vector<double> numbersOf(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& number : splitAt(text, ' ')) numbers.push_back(std::stod(number));
+  return numbers;
+}
+
 /// What bop_toolkit's check_results_bop19.py and load_bop_results demand, restated.
 TEST(BopResults, KeepsTheRulesOfTheFormat) {
-  const TemporaryFolder folder;
-  Random random = randomFor("BopResults.Rules");
+  const test::TemporaryFolder folder;
+  Random random = test::randomFor("BopResults.Rules");
   const auto results = randomResults(random, 40);
   writeBopResults(folder / "boresight_os-test.csv", results);
   std::ifstream stream(folder / "boresight_os-test.csv");
@@ -133,18 +134,14 @@ TEST(BopResults, KeepsTheRulesOfTheFormat) {
     EXPECT_EQ(std::stoi(fields[1]), results[i].image_id);
     EXPECT_EQ(std::stoi(fields[2]), results[i].object_id);
     EXPECT_EQ(std::stod(fields[3]), results[i].score);
-    const auto rotation = splitAt(fields[4], ' ');
-    const auto translation = splitAt(fields[5], ' ');
+    const auto rotation = numbersOf(fields[4]);
+    const auto translation_mm = numbersOf(fields[5]);
     ASSERT_EQ(rotation.size(), 9u);
-    ASSERT_EQ(translation.size(), 3u);
-    Eigen::Matrix3d matrix;
-    for (int k = 0; k < 9; ++k)
-      matrix(k / 3, k % 3) = std::stod(rotation[static_cast<std::size_t>(k)]);
+    ASSERT_EQ(translation_mm.size(), 3u);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> matrix(rotation.data());
     EXPECT_LT((matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
     const Eigen::Vector3d point_mm(10.0, -20.0, 30.0);
-    const Eigen::Vector3d in_camera_mm =
-        matrix * point_mm + Eigen::Vector3d(std::stod(translation[0]), std::stod(translation[1]),
-                                            std::stod(translation[2]));
+    const Eigen::Vector3d in_camera_mm = matrix * point_mm + Eigen::Vector3d(translation_mm.data());
     EXPECT_LT((1e-3 * in_camera_mm - results[i].camera_from_station * (1e-3 * point_mm)).norm(),
               1e-12);
     EXPECT_EQ(std::stod(fields[6]), results[i].seconds);
@@ -153,20 +150,15 @@ TEST(BopResults, KeepsTheRulesOfTheFormat) {
 }
 
 TEST(BopResults, RefusesWhatTheFormatDoesNotAllow) {
-  const TemporaryFolder folder;
-  Random random = randomFor("BopResults.Refuses");
-  const auto refuses = [&folder](std::vector<BopResult> results) {
+  const test::TemporaryFolder folder;
+  Random random = test::randomFor("BopResults.Refuses");
+  const std::vector<BopResult> good(2, randomResults(random, 1)[0]);
+  std::vector<BopResult> other_time = good, no_image = good, no_number = good;
+  other_time[1].seconds = 0.5;
+  no_image[1].image_id = -1;
+  no_number[1].camera_from_station.translation_m.x() = NAN;
+  for (const auto& results : {other_time, no_image, no_number})
     EXPECT_THROW(writeBopResults(folder / "r.csv", results), OutputError);
-  };
-  std::vector<BopResult> two(2, randomResults(random, 1)[0]);
-  two[1].seconds = 0.5;
-  refuses(two);
-  two[1].seconds = two[0].seconds;
-  two[1].image_id = -1;
-  refuses(two);
-  two[1].image_id = 0;
-  two[1].camera_from_station.translation_m.x() = NAN;
-  refuses(two);
 }
 
 }  // namespace

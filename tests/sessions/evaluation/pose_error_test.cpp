@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "sessions/evaluation/model_error.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -17,10 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 Pose poseOf(const Vector3d& rotation_rad, const Vector3d& translation_m) {
-  Pose pose;
-  pose.rotation = rotationExp(rotation_rad);
-  pose.translation_m = translation_m;
-  return pose;
+  return {rotationExp(rotation_rad), translation_m};
 }
 
 /// The estimate for which E = camera_true_from_camera_estimated is the given one.
@@ -52,14 +51,10 @@ TEST(PoseError, IsMeasuredAtTheEndEffector) {
 }
 
 TEST(PoseError, KeepsTinyAnglesAndHalfTurnsExact) {
-  const PoseError tiny = errorOfTurn(Vector3d(1e-9, 0, 0));
-  EXPECT_NEAR(tiny.rotation_mrad, 1e-6, 1e-11);
-  const PoseError half = errorOfTurn(Vector3d(0, 0, 3.1));
-  EXPECT_NEAR(half.in_plane_mrad, 3100.0, 1e-9);
-  const PoseError back = errorOfTurn(Vector3d(0, 0, -3.1));
-  EXPECT_NEAR(back.in_plane_mrad, -3100.0, 1e-9);
-  const PoseError flipped = errorOfTurn(Vector3d(kPi, 0, 0));
-  EXPECT_NEAR(flipped.rotation_mrad, 1000.0 * kPi, 1e-9);
+  EXPECT_NEAR(errorOfTurn({1e-9, 0, 0}).rotation_mrad, 1e-6, 1e-11);
+  EXPECT_NEAR(errorOfTurn({0, 0, 3.1}).in_plane_mrad, 3100.0, 1e-9);
+  EXPECT_NEAR(errorOfTurn({0, 0, -3.1}).in_plane_mrad, -3100.0, 1e-9);
+  EXPECT_NEAR(errorOfTurn({kPi, 0, 0}).rotation_mrad, 1000.0 * kPi, 1e-9);
 }
 
 /// Independent of the formulas above: the tilt is the angle between the optical axes, the whole
@@ -75,8 +70,8 @@ TEST(PoseError, AgreesWithAnglesTakenFromMatrices) {
     EXPECT_NEAR(error.rotation_mrad, 1e3 * std::acos(r(2, 2)), 1e-6);
     EXPECT_NEAR(error.geodesic_mrad, 1e3 * std::acos((r.trace() - 1.0) / 2.0), 1e-6);
     // Taking the tilt away leaves the twist: R = swing * twist, and swing turns z to R z.
-    const Vector3d rz = r.col(2);
-    const Eigen::Quaterniond swing = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), rz);
+    const Eigen::Quaterniond swing =
+        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), r.col(2));
     const Eigen::Matrix3d twist = swing.toRotationMatrix().transpose() * r;
     EXPECT_NEAR(error.in_plane_mrad, 1e3 * std::atan2(twist(1, 0), twist(0, 0)), 1e-6);
     EXPECT_NEAR(error.normal_mm, 300.0, 1e-9);
@@ -85,63 +80,53 @@ TEST(PoseError, AgreesWithAnglesTakenFromMatrices) {
   }
 }
 
-struct ProjectionError : testing::Test {
-  const Camera camera_ = test::makePinhole(640, 480, 1000.0);
-  const Pose front_ = poseOf(Vector3d::Zero(), Vector3d(0, 0, 2));
-};
-
-TEST_F(ProjectionError, AveragesDistancesOfVertices) {
+TEST(ProjectionError, AveragesDistancesOfVerticesAndCountsADiagonalForTheHidden) {
+  const Camera camera = test::makePinhole(640, 480, 1000.0);
+  const Pose front = poseOf(Vector3d::Zero(), Vector3d(0, 0, 2));
   // Shifted by 1 mm in x at 1 m and 4 m: 1 px and 0.25 px.
-  const std::vector<Eigen::Vector3f> vertices = {{0, 0, -1}, {0.5F, 0.25F, 2}};
+  std::vector<Eigen::Vector3f> vertices = {{0, 0, -1}, {0.5F, 0.25F, 2}};
   const Pose shifted = poseOf(Vector3d::Zero(), Vector3d(0.001, 0, 2));
-  const auto error = projectionError(camera_, front_, shifted, vertices);
-  ASSERT_TRUE(error.has_value());
-  EXPECT_NEAR(*error, 0.625, 1e-9);
-  EXPECT_NEAR(*projectionError(camera_, front_, front_, vertices), 0.0, 1e-12);
-}
-
-TEST_F(ProjectionError, CountsADiagonalWhereOnlyTheEstimateCannotProject) {
-  const std::vector<Eigen::Vector3f> vertices = {{0, 0, 0}};
+  EXPECT_NEAR(projectionError(camera, front, shifted, vertices).value(), 0.625, 1e-9);
+  EXPECT_NEAR(*projectionError(camera, front, front, vertices), 0.0, 1e-12);
+  vertices = {{0, 0, 0}};
   const Pose behind = poseOf(Vector3d::Zero(), Vector3d(0, 0, -2));
-  EXPECT_NEAR(*projectionError(camera_, front_, behind, vertices), 800.0, 1e-12);
-  EXPECT_FALSE(projectionError(camera_, behind, front_, vertices).has_value());
-  EXPECT_FALSE(projectionError(camera_, front_, front_, {}).has_value());
+  EXPECT_NEAR(*projectionError(camera, front, behind, vertices), 800.0, 1e-12);
+  EXPECT_FALSE(projectionError(camera, behind, front, vertices).has_value());
+  EXPECT_FALSE(projectionError(camera, front, front, {}).has_value());
 }
 
 TEST(MeetsRequirement, JudgesWhatIsNamed) {
-  struct Judged {
+  const Requirement normal{0.4, {}, {}, {}}, rotation{{}, {}, 0.25, {}}, pixels{{}, {}, {}, 5.0};
+  const struct {
     PoseError error;
     Requirement requirement;
     bool meets, gross;
-  };
-  const Requirement normal{0.4, {}, {}, {}}, rotation{{}, {}, 0.25, {}}, pixels{{}, {}, {}, 5.0};
-  const Judged cases[] = {{{-0.4, 100.0, 0.0, 0.0, 0.0, {}}, normal, true, false},
-                          {{-0.41, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, false},
-                          {{0.41, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, false},
-                          {{-1.21, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, true},
-                          {{-9.0, 9.0, 4.36, 0.0, 0.0, {}}, rotation, true, false},
-                          {{-9.0, 9.0, 4.37, 0.0, 0.0, {}}, rotation, false, false},
-                          {{-9.0, 9.0, 13.1, 0.0, 0.0, {}}, rotation, false, true},
-                          {{-9.0, 100.0, 0.0, 0.0, 0.0, {}}, {{}, 100.0, {}, {}}, true, false},
-                          {{-9.0, 100.0, 0.0, 0.0, 0.0, {}}, {{}, 99.0, {}, {}}, false, false},
-                          {{0.0, 0.0, 0.0, 0.0, 0.0, {}}, pixels, false, true},  // it is not known
-                          {{0.0, 0.0, 0.0, 0.0, 0.0, 5.0}, pixels, true, false},
-                          {{0.0, 0.0, 0.0, 0.0, 0.0, 15.1}, pixels, false, true}};
-  for (const Judged& judged : cases) {
+  } cases[] = {{{-0.4, 100.0, 0.0, 0.0, 0.0, {}}, normal, true, false},
+               {{-0.41, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, false},
+               {{0.41, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, false},
+               {{-1.21, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, true},
+               {{-9.0, 9.0, 4.36, 0.0, 0.0, {}}, rotation, true, false},
+               {{-9.0, 9.0, 4.37, 0.0, 0.0, {}}, rotation, false, false},
+               {{-9.0, 9.0, 13.1, 0.0, 0.0, {}}, rotation, false, true},
+               {{-9.0, 100.0, 0.0, 0.0, 0.0, {}}, {{}, 100.0, {}, {}}, true, false},
+               {{-9.0, 100.0, 0.0, 0.0, 0.0, {}}, {{}, 99.0, {}, {}}, false, false},
+               {{0.0, 0.0, 0.0, 0.0, 0.0, {}}, pixels, false, true},  // it is not known
+               {{0.0, 0.0, 0.0, 0.0, 0.0, 5.0}, pixels, true, false},
+               {{0.0, 0.0, 0.0, 0.0, 0.0, 15.1}, pixels, false, true}};
+  for (const auto& judged : cases) {
     EXPECT_EQ(meetsRequirement(judged.error, judged.requirement), judged.meets) << &judged - cases;
     EXPECT_EQ(isGross(judged.error, judged.requirement), judged.gross) << &judged - cases;
   }
 }
 
 TEST(StatisticsOf, HandComputedValues) {
-  const std::vector<double> values = {2.0, -4.0, 4.0, 4.0, -5.0, 5.0, 1.0, 9.0};
-  const Statistics result = statistics(values);
+  const Statistics result =
+      statistics(std::vector<double>{2.0, -4.0, 4.0, 4.0, -5.0, 5.0, 1.0, 9.0});
   EXPECT_EQ(result.count, 8);
   EXPECT_DOUBLE_EQ(result.mean, 2.0);
   EXPECT_DOUBLE_EQ(result.deviation, std::sqrt((0.0 + 36 + 4 + 4 + 49 + 9 + 1 + 49) / 8.0));
   EXPECT_DOUBLE_EQ(result.maximum, 9.0);
-  const std::vector<double> negative = {-3.0, 1.0};
-  EXPECT_DOUBLE_EQ(statistics(negative).maximum, 3.0);
+  EXPECT_DOUBLE_EQ(statistics(std::vector<double>{-3.0, 1.0}).maximum, 3.0);
   EXPECT_EQ(statistics({}).count, 0);
   EXPECT_EQ(statistics({}).mean, 0.0);
 }
@@ -156,14 +141,12 @@ TEST(PoseSigma, IsWhatPoseErrorsOfRandomPosesSpread) {
     for (int column = 0; column < 6; ++column) root(row, column) = 1e-4 * random.normal();
   const auto sigma = poseSigma(root * root.transpose(), effector);
   ASSERT_TRUE(sigma);
-  double normal = 0.0;
-  double lateral = 0.0;
-  double rotation = 0.0;
+  double normal = 0.0, lateral = 0.0, rotation = 0.0;
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) {
-    const Vector6d unit = test::normalVector6(random);
     // The estimate is the truth displaced; seen from the truth that is the displacement back.
-    const PoseError error = poseError(perturbed(root * unit, pose), pose, effector);
+    const PoseError error =
+        poseError(perturbed(root * test::normalVector6(random), pose), pose, effector);
     normal += error.normal_mm * error.normal_mm / kCount;
     lateral += error.lateral_mm * error.lateral_mm / kCount;
     rotation += error.rotation_mrad * error.rotation_mrad / kCount;
@@ -176,10 +159,10 @@ TEST(PoseSigma, IsWhatPoseErrorsOfRandomPosesSpread) {
 TEST(PoseSigma, IsNothingWithoutACovariance) {
   EXPECT_FALSE(poseSigma(Matrix6d::Zero(), std::nullopt));
   Matrix6d covariance = Matrix6d::Identity();
-  covariance(2, 2) = -1.0;
-  EXPECT_FALSE(poseSigma(covariance, std::nullopt));
-  covariance(2, 2) = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(poseSigma(covariance, std::nullopt));
+  for (const double variance : {-1.0, std::numeric_limits<double>::infinity()}) {
+    covariance(2, 2) = variance;
+    EXPECT_FALSE(poseSigma(covariance, std::nullopt));
+  }
 }
 
 TEST(SigmaExcess, NamesWhatIsWorstByFiguresAndWhere) {
@@ -188,13 +171,155 @@ TEST(SigmaExcess, NamesWhatIsWorstByFiguresAndWhere) {
   const Matrix6d covariance = sigma.cwiseAbs2().asDiagonal();
   EXPECT_EQ(sigmaExcessText(covariance, {}, {0.4, 0.4, 0.25, {}}),
             "10.4 mm along the view axis at the camera, 26 times the 0.4 mm required");
-  Pose effector;
+  const Pose effector;
   EXPECT_EQ(sigmaExcessText(covariance, effector, {11.0, 0.5, 0.25, {}}),
             "3 mm across the view axis at the end effector, 6 times the 0.5 mm required");
   EXPECT_EQ(sigmaExcessText(covariance, effector, {11.0, {}, 0.01, {}}),
             "0.0573 deg of the view axis, 5.73 times the 0.01 deg required");
   EXPECT_EQ(sigmaExcessText(covariance, effector, {11.0, 4.0, 0.25, {}}), "");
   EXPECT_EQ(sigmaExcessText(Matrix6d::Zero(), effector, {0.0, 0.0, 0.0, {}}), "");
+}
+
+/// The corners of a cube of side 2 mm about the origin.
+std::vector<Eigen::Vector3f> cube() {
+  std::vector<Eigen::Vector3f> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.emplace_back(i & 1 ? 1e-3f : -1e-3f, i & 2 ? 1e-3f : -1e-3f, i & 4 ? 1e-3f : -1e-3f);
+  return corners;
+}
+
+struct ModelError : testing::Test {
+  const Camera camera = test::makePinhole(200, 200, 100.0);
+  const std::vector<Eigen::Vector3f> vertices = cube();
+  const ModelView model{vertices, nullptr};
+};
+
+std::vector<Eigen::Vector3f> randomVertices(Random& random, int count) {
+  std::vector<Eigen::Vector3f> vertices;
+  for (int i = 0; i < count; ++i)
+    vertices.push_back(test::randomVector(random, 0.05).cast<float>());
+  return vertices;
+}
+
+TEST_F(ModelError, ShiftMovesEveryVertexByItself) {
+  const PoseError error =
+      wholeError(camera, poseOf(Vector3d::Zero(), {0.0, 0.0, 2.0}),
+                 poseOf(Vector3d::Zero(), {0.3e-3, 0.0, 2.0 + 0.4e-3}), std::nullopt, model);
+  EXPECT_NEAR(*error.mssd_mm, 0.5, 1e-9);
+  EXPECT_NEAR(*error.add_mm, 0.5, 1e-9);
+  // A corner's nearest is its own: all others are at least 1.7 mm away.
+  EXPECT_NEAR(*error.adi_mm, 0.5, 1e-9);
+  EXPECT_NEAR(error.lateral_mm, 0.3, 1e-9);
+  EXPECT_NEAR(error.normal_mm, -0.4, 1e-9);
+}
+
+TEST_F(ModelError, QuarterTurnAndHidingOfACube) {
+  const Pose truth = poseOf(Vector3d::Zero(), {0.0, 0.0, 1.0});
+  const Pose estimate = poseOf({0.0, 0.0, 0.5 * kPi}, {0.0, 0.0, 1.0});
+  // Every corner goes to the next one, a side away; none lies where none was.
+  EXPECT_NEAR(surfaceDistance_m(truth, estimate, model), 2e-3, 1e-9);
+  EXPECT_NEAR(meanDistance_m(truth, estimate, model), 2e-3, 1e-9);
+  EXPECT_NEAR(meanNearestDistance_m(truth, estimate, model), 0.0, 1e-9);
+  // The nearer corners, at 0.999 m, move farthest: 100 px * 2 mm / 0.999 m.
+  EXPECT_NEAR(*projectionDistance_px(camera, truth, estimate, model), 0.2 / 0.999, 1e-6);
+  // A vertex that only the estimate hides counts as a diagonal.
+  const Pose behind = poseOf(Vector3d::Zero(), {0.0, 0.0, -1.0});
+  EXPECT_NEAR(*projectionDistance_px(camera, truth, behind, model), std::hypot(200.0, 200.0), 1e-9);
+  EXPECT_FALSE(projectionDistance_px(camera, behind, truth, model));
+}
+
+TEST_F(ModelError, DiscreteSymmetryCountsInEveryError) {
+  Symmetries symmetries;
+  symmetries.discrete = {poseOf({0.0, 0.0, 0.5 * kPi}, {0.0, 0.0, 0.0})};
+  const Pose truth = poseOf({0.4, 0.1, -0.3}, {0.01, -0.02, 1.0});
+  const Pose turned = truth * symmetries.discrete[0];
+  const PoseError none = wholeError(camera, truth, turned, std::nullopt, {vertices, &symmetries});
+  for (const double value :
+       {none.normal_mm, none.lateral_mm, none.rotation_mrad, none.in_plane_mrad, none.geodesic_mrad,
+        *none.projection_px, *none.mssd_mm, *none.mspd_px, *none.add_mm, *none.adi_mm})
+    EXPECT_NEAR(value, 0.0, 1e-6);
+  // Not the other way about: the symmetry that is not listed is an error.
+  const Pose back = truth * symmetries.discrete[0].inverse();
+  EXPECT_NEAR(1e3 * surfaceDistance_m(truth, back, {vertices, &symmetries}), 2.0, 1e-6);
+}
+
+/// BOP's own list: turns in 315 steps after each discrete symmetry.
+double bruteForceSurfaceDistance(const Pose& truth, const Pose& estimate,
+                                 const std::vector<Eigen::Vector3f>& vertices,
+                                 const Symmetries& symmetries) {
+  double best = 1e9;
+  std::vector<Pose> discrete = symmetries.discrete;
+  discrete.emplace_back();
+  for (const Pose& pose : discrete)
+    for (int i = 0; i < 315; ++i) {
+      const AxisSymmetry& axis = symmetries.continuous[0];
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(i * 2.0 * kPi / 315, axis.axis).toRotationMatrix();
+      double largest = 0.0;
+      for (const Eigen::Vector3f& vertex : vertices) {
+        const Vector3d p = pose * vertex.cast<double>();
+        const Vector3d same = turn * (p - axis.point_m) + axis.point_m;
+        largest = std::max(largest, (truth * same - estimate * vertex.cast<double>()).norm());
+      }
+      best = std::min(best, largest);
+    }
+  return best;
+}
+
+TEST_F(ModelError, TurnsAboutAnAxisAreTheChallengesAndFiner) {
+  Random random = test::randomFor("ModelError.Turns");
+  for (int i = 0; i < 10; ++i) {
+    const auto cloud = randomVertices(random, 40);
+    Symmetries symmetries;
+    symmetries.discrete = {poseOf({kPi, 0.0, 0.0}, {0.0, 0.002, 0.0})};
+    symmetries.continuous = {{Vector3d(0.0, 0.6, 0.8), Vector3d(0.01, 0.0, 0.003)}};
+    const Pose truth = test::randomPose(random);
+    const Pose equal = truth * turnAbout(symmetries.continuous[0], random.uniform(0.0, 2.0 * kPi)) *
+                       symmetries.discrete[0];
+    const ModelView turned_model{cloud, &symmetries};
+    EXPECT_NEAR(surfaceDistance_m(truth, equal, turned_model), 0.0, 1e-9);
+    EXPECT_NEAR(meanDistance_m(truth, equal, turned_model), 0.0, 1e-9);
+    Vector6d offset;
+    for (int k = 0; k < 6; ++k) offset[k] = random.uniform(-0.03, 0.03);
+    const Pose estimate = perturbed(offset, equal);
+    const double sampled = bruteForceSurfaceDistance(truth, estimate, cloud, symmetries);
+    const double found = surfaceDistance_m(truth, estimate, turned_model);
+    EXPECT_LE(found, sampled + 1e-12);
+    // Half a step of 0.02 rad moves nothing by more than 0.01 times its distance from the axis.
+    EXPECT_GE(found, sampled - 0.01 * 0.1);
+  }
+}
+
+TEST_F(ModelError, TubeTurnedAboutItsAxisIsNoError) {
+  Random random = test::randomFor("ModelError.Tube");
+  const auto tube = randomVertices(random, 60);
+  Symmetries symmetries;
+  symmetries.continuous = {{Vector3d::UnitZ(), Vector3d::Zero()}};
+  const Pose truth = poseOf({0.1, -0.2, 0.0}, {0.01, 0.02, 0.5});
+  const Pose estimate = truth * poseOf({0.0, 0.0, 1.2345}, {0.0, 0.0, 0.0});
+  const PoseError error = wholeError(camera, truth, estimate, std::nullopt, {tube, &symmetries});
+  EXPECT_NEAR(error.geodesic_mrad, 0.0, 1e-5);
+  EXPECT_NEAR(error.in_plane_mrad, 0.0, 1e-5);
+  EXPECT_NEAR(*error.projection_px, 0.0, 1e-6);
+  EXPECT_NEAR(*error.mspd_px, 0.0, 1e-6);
+}
+
+TEST(NearestPoint, IsWhatBruteForceFinds) {
+  Random random = test::randomFor("NearestPoint");
+  for (const int count : {1, 2, 3, 50, 777}) {
+    std::vector<Vector3d> points;
+    for (const Eigen::Vector3f& v : randomVertices(random, count))
+      points.push_back(v.cast<double>());
+    points.push_back(points.front());  // the same twice
+    const NearestPoint nearest(points);
+    for (int i = 0; i < 100; ++i) {
+      const Vector3d query = 1.5 * randomVertices(random, 1)[0].cast<double>();
+      double expected = 1e9;
+      for (const Vector3d& p : points) expected = std::min(expected, (p - query).norm());
+      EXPECT_DOUBLE_EQ(nearest.distance(query), expected);
+    }
+  }
+  EXPECT_TRUE(std::isinf(NearestPoint({}).distance({0.0, 0.0, 0.0})));
 }
 
 }  // namespace

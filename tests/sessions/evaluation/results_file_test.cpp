@@ -8,16 +8,45 @@
 #include <sqlite3.h>
 
 #include "sessions/io/files/errors.h"
-#include "tests/sessions/evaluation/sample_results.h"
 #include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::sampleDataset;
-using test::sampleMethod;
-using test::sampleRun;
+DatasetFacts sampleDataset() { return {"/data/dataset.json", "d1", 3, "1.0"}; }
+
+MethodFacts sampleMethod(const std::string& method) {
+  MethodFacts facts;
+  facts.method = method;
+  facts.profile = "default";
+  facts.options = "{\"pnp.seed\":7}";
+  facts.options_sha256 = "o1";
+  return facts;
+}
+
+RunResult sampleRun(const std::string& case_id = "bc-1", std::int64_t dataset_index = 0,
+                    std::int32_t reseed = 2, const std::string& method = "whs") {
+  RunResult run;
+  run.case_id = case_id;
+  run.dataset_index = dataset_index;
+  run.reseed = reseed;
+  run.station = case_id.substr(0, 2);
+  run.method = method;
+  run.status = "converged";
+  run.message = "it's \"quoted\"";
+  run.tags = {"far", "low_sun"};
+  run.completed = true;
+  run.success = true;
+  run.matches = 96;
+  run.inliers = 88;
+  run.edge_support = 0.5;
+  run.error.emplace().lateral_mm = 0.25;
+  run.requirement.emplace().normal_mm = 0.4;
+  run.seconds.matching = 1.5;
+  run.digest = "abc";
+  return run;
+}
 
 /// The cells of a query, row by row, separated by '|'; NULL as "NULL". By SQLite itself.
 std::string query(const std::filesystem::path& file, const char* sql) {
@@ -38,12 +67,9 @@ std::string query(const std::filesystem::path& file, const char* sql) {
 
 class ResultsFile : public testing::Test {
  protected:
-  void write(const std::vector<RunResult>& runs, const std::string& method = "whs") const {
-    write("r.sqlite", runs, sampleDataset(), sampleMethod(method));
-  }
-  void write(const std::string& name, const std::vector<RunResult>& runs,
-             const DatasetFacts& dataset = sampleDataset(),
-             const MethodFacts& method = sampleMethod("whs")) const {
+  void write(const std::vector<RunResult>& runs, const std::string& name = "r.sqlite",
+             const MethodFacts& method = sampleMethod("whs"),
+             const DatasetFacts& dataset = sampleDataset()) const {
     ResultsWriter writer(folder_ / name, dataset);
     writer.admit(method);
     BatchRun batch_run;
@@ -52,11 +78,15 @@ class ResultsFile : public testing::Test {
     for (const RunResult& run : runs) writer.add(run);
     writer.end();
   }
-  std::string refusal(const DatasetFacts& dataset, const MethodFacts& method) const {
+  std::string refusal(const MethodFacts& method = sampleMethod("whs"),
+                      const DatasetFacts& dataset = sampleDataset()) const {
     return folder_.message([&] {
       ResultsWriter writer(file_, dataset);
       writer.admit(method);
     });
+  }
+  std::string readRefusal() const {
+    return folder_.message([this] { (void)readResults(file_); });
   }
 
   const test::TemporaryFolder folder_;
@@ -78,28 +108,26 @@ TEST_F(ResultsFile, HoldsEveryRun) {
       "1|0|bc-1|2|bc|whs|converged|it's \"quoted\"|1|1|96|88|0.5|0.25|NULL|"
       "{\"normal_mm\":0.4}|1.5|1.5|abc|"
       "2|1|bc-2|0||whs|||0|NULL|0|0|0.0|NULL|NULL|NULL|0.0|0.0||");
-  EXPECT_EQ(query(file_, "SELECT value FROM fact WHERE name = 'dataset_sha256'"), "d1|");
-  EXPECT_EQ(query(file_, "SELECT tag, case_id FROM tag JOIN run ON run.id = run ORDER BY tag"),
-            "far|bc-1|low_sun|bc-1|");
-  EXPECT_EQ(query(file_, "PRAGMA integrity_check"), "ok|");
+  EXPECT_EQ(query(file_,
+                  "SELECT value FROM fact WHERE name = 'dataset_sha256'; PRAGMA integrity_check; "
+                  "SELECT tag, case_id FROM tag JOIN run ON run.id = run ORDER BY tag"),
+            "d1|ok|far|bc-1|low_sun|bc-1|");
   EXPECT_EQ(folder_.fileCount(), 1u) << "neither journal nor lock stays";
 }
 
 TEST_F(ResultsFile, HoldsStepsAndWhatBecameOfTemplates) {
   RunResult run = sampleRun();
-  RunStep step;
-  step.kind = "match";
-  step.status = "running";
-  step.rms_px = 0.75;
-  step.error = PoseError{};
-  step.error->normal_mm = -0.5;
-  step.details.resize(2);
-  step.details[1].index = 1;
-  step.details[1].found_px = {3.5, 4.0};
-  step.details[1].second_score = std::numeric_limits<double>::quiet_NaN();
-  run.steps = {step, step};
+  run.steps.resize(1);
+  run.steps[0].kind = "match";
+  run.steps[0].status = "running";
+  run.steps[0].rms_px = 0.75;
+  run.steps[0].error.emplace().normal_mm = -0.5;
+  run.steps.push_back(run.steps[0]);
   run.steps[1].index = 1;
-  run.steps[1].details.clear();
+  run.steps[0].details.resize(2);
+  run.steps[0].details[1].index = 1;
+  run.steps[0].details[1].found_px = {3.5, 4.0};
+  run.steps[0].details[1].second_score = std::numeric_limits<double>::quiet_NaN();
   write({run});
   EXPECT_EQ(query(file_, "SELECT run, step, kind, rms_px, normal_mm FROM iteration ORDER BY step"),
             "1|0|match|0.75|-0.5|1|1|match|0.75|-0.5|");
@@ -139,7 +167,7 @@ TEST_F(ResultsFile, ReadsBackWhatWasWritten) {
 
 TEST_F(ResultsFile, OrdersRunsAsTheDatasetDoesWhateverCameFirst) {
   write({sampleRun("os-1", 5, 0), sampleRun("bc-1", 0, 1), sampleRun("bc-1", 0, 0)});
-  write({sampleRun("bc-1", 0, 0, "ncc")}, "ncc");
+  write({sampleRun("bc-1", 0, 0, "ncc")}, "r.sqlite", sampleMethod("ncc"));
   std::string order;
   forEachRun(file_, [&order](const RunResult& run) {
     order += run.case_id + "/" + std::to_string(run.reseed) + "/" + run.method + " ";
@@ -161,57 +189,51 @@ TEST_F(ResultsFile, GoesOnWithoutDoingAnythingTwice) {
 }
 
 TEST_F(ResultsFile, KeepsWhatWasAddedWhenTheWriterIsNeverEnded) {
-  auto* abandoned = new ResultsWriter(file_, sampleDataset());
-  abandoned->begin(BatchRun{});
-  abandoned->add(sampleRun());
+  ResultsWriter abandoned(file_, sampleDataset());
+  abandoned.begin(BatchRun{});
+  abandoned.add(sampleRun());
   EXPECT_EQ(readResults(file_).runs.size(), 1u) << "another process sees it at once";
   EXPECT_EQ(readResults(file_).facts.batch_runs.front().ended, "");
-  delete abandoned;
 }
 
 TEST_F(ResultsFile, TriesRefusedInputsAgain) {
   RunResult bad = sampleRun("bc-1", 0, 0);
   bad.status = "input_error";
   write({bad});
-  {
-    const ResultsWriter writer(file_, sampleDataset());
-    EXPECT_FALSE(writer.has("whs", "bc-1", 0));
-  }
+  EXPECT_FALSE(ResultsWriter(file_, sampleDataset()).has("whs", "bc-1", 0));
   write({sampleRun("bc-1", 0, 0)});
-  EXPECT_EQ(query(file_, "SELECT status FROM run"), "converged|");
-  EXPECT_EQ(query(file_, "SELECT count(*) FROM tag"), "2|");
+  EXPECT_EQ(query(file_, "SELECT status FROM run; SELECT count(*) FROM tag"), "converged|2|");
 }
 
 TEST_F(ResultsFile, OtherDatasetOrOptions_AreRefused) {
   write({sampleRun()});
+  const MethodFacts whs = sampleMethod("whs");
   DatasetFacts other = sampleDataset();
   other.dataset_sha256 = "d2";
-  EXPECT_THAT(refusal(other, sampleMethod("whs")), HasSubstr("another dataset"));
+  EXPECT_THAT(refusal(whs, other), HasSubstr("another dataset"));
   other = sampleDataset();
   other.version = "0.0.9";
-  EXPECT_THAT(refusal(other, sampleMethod("whs")), HasSubstr("version 1.0, not 0.0.9"));
-  MethodFacts method = sampleMethod("whs");
+  EXPECT_THAT(refusal(whs, other), HasSubstr("version 1.0, not 0.0.9"));
+  MethodFacts method = whs;
   method.options_sha256 = "o2";
   method.options = "{\"pnp.seed\":8}";
-  EXPECT_EQ(refusal(sampleDataset(), method),
+  EXPECT_EQ(refusal(method),
             "cannot write r.sqlite: its runs of whs have other options: pnp.seed 7, not 8; name "
             "another file");
-  method = sampleMethod("whs");
+  method.method = "ncc";
+  EXPECT_EQ(refusal(method), "(nothing)") << "a method has its own options";
+  method = whs;
   method.reseed_scale = 2.0;
-  EXPECT_THAT(refusal(sampleDataset(), method), HasSubstr("1 times as far, not 2"));
-  method = sampleMethod("ncc");
-  method.options_sha256 = "o2";
-  EXPECT_EQ(refusal(sampleDataset(), method), "(nothing)") << "a method has its own options";
+  EXPECT_THAT(refusal(method), HasSubstr("1 times as far, not 2"));
 }
 
-TEST_F(ResultsFile, IsWrittenByOneAtATime) {
-  const ResultsWriter writer(file_, sampleDataset());
-  EXPECT_THAT(refusal(sampleDataset(), sampleMethod("whs")), HasSubstr("another run is writing"));
-}
-
-TEST_F(ResultsFile, LeavesOtherFilesAlone) {
+TEST_F(ResultsFile, LeavesOtherFilesAndThoseOfAnotherRunAlone) {
+  {
+    const ResultsWriter writer(file_, sampleDataset());
+    EXPECT_THAT(refusal(), HasSubstr("another run is writing"));
+  }
   folder_.write("r.sqlite", "something else, long enough to be taken for a database's header");
-  EXPECT_THAT(refusal(sampleDataset(), sampleMethod("whs")), HasSubstr("not a results file"));
+  EXPECT_THAT(refusal(), HasSubstr("not a results file"));
   EXPECT_THAT(folder_.read("r.sqlite"), HasSubstr("something else"));
   EXPECT_THROW(readResults(file_), InputError);
   EXPECT_THROW(readResults(folder_ / "none.sqlite"), InputError);
@@ -219,34 +241,30 @@ TEST_F(ResultsFile, LeavesOtherFilesAlone) {
   EXPECT_THROW(ResultsWriter(folder_ / "no/such/r.sqlite", sampleDataset()), OutputError);
 }
 
-TEST_F(ResultsFile, WithATriggerIsRefusedByReadersAndWriters) {
-  write({sampleRun("bc-1", 0, 0)});
-  query(file_, "CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END");
+TEST_F(ResultsFile, ChangedByAnotherProgram_IsRefusedByReadersAndWriters) {
+  const auto change = [this](const char* sql) {
+    std::filesystem::remove(file_);
+    write({sampleRun()});
+    query(file_, sql);
+  };
+  change("CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END");
   const std::string reason =
       "r.sqlite: its trigger \"stop\" is not from whs evaluate; it was changed by another program: "
       "evaluate again into a new file";
-  EXPECT_EQ(folder_.message([&] { (void)readResults(file_); }), reason);
-  EXPECT_EQ(refusal(sampleDataset(), sampleMethod("whs")), "cannot write " + reason);
-}
-
-TEST_F(ResultsFile, WithAViewInPlaceOfATableIsRefusedWithoutReadingTheView) {
-  write({sampleRun()});
-  query(file_,
-        "DROP TABLE tag; CREATE VIEW tag AS WITH RECURSIVE n(run) AS (SELECT 1 UNION ALL SELECT "
-        "run FROM n) SELECT run, 'a' AS tag FROM n");
-  EXPECT_THAT(folder_.message([&] { (void)readResults(file_); }), HasSubstr("its view \"tag\""));
+  EXPECT_EQ(readRefusal(), reason);
+  EXPECT_EQ(refusal(), "cannot write " + reason);
+  // The view is not read: it has no end.
+  change(
+      "DROP TABLE tag; CREATE VIEW tag AS WITH RECURSIVE n(run) AS (SELECT 1 UNION ALL SELECT "
+      "run FROM n) SELECT run, 'a' AS tag FROM n");
+  EXPECT_THAT(readRefusal(), HasSubstr("its view \"tag\""));
   EXPECT_THAT(folder_.message([&] { (void)StepReader(file_); }), HasSubstr("view"));
   EXPECT_THAT(folder_.message([&] { forEachRun(file_, [](const RunResult&) {}); }),
               HasSubstr("its view \"tag\""));
-}
-
-TEST_F(ResultsFile, WithOtherColumnsOrWithoutATableIsRefused) {
-  write({sampleRun()});
-  query(file_, "ALTER TABLE fact ADD COLUMN more TEXT DEFAULT 'x'");
-  EXPECT_THAT(folder_.message([&] { (void)readResults(file_); }), HasSubstr("table \"fact\""));
-  query(file_, "ALTER TABLE fact DROP COLUMN more; DROP INDEX run_order");
-  EXPECT_THAT(folder_.message([&] { (void)readResults(file_); }),
-              HasSubstr("it lacks the index \"run_order\""));
+  change("ALTER TABLE fact ADD COLUMN more TEXT DEFAULT 'x'");
+  EXPECT_THAT(readRefusal(), HasSubstr("table \"fact\""));
+  change("DROP INDEX run_order");
+  EXPECT_THAT(readRefusal(), HasSubstr("it lacks the index \"run_order\""));
 }
 
 TEST_F(ResultsFile, DisablesTriggersAndViewsOfTheConnection) {
@@ -267,14 +285,13 @@ class MergeResults : public ResultsFile {
     for (const std::string& name : names) files.push_back(folder_ / name);
     return mergeResults(folder_ / "out", files);
   }
-  std::string refusal(const std::vector<std::string>& names) const {
+  std::string mergeRefusal(const std::vector<std::string>& names) const {
     return folder_.message([&] { (void)merge(names); });
   }
-  /// "case/seed@machine" of every run.
+  /// "case/seed" of every run.
   std::string merged() const {
-    const Results results = readResults(folder_ / "out");
     std::string text;
-    for (const RunResult& run : results.runs)
+    for (const RunResult& run : readResults(folder_ / "out").runs)
       text += run.case_id + "/" + std::to_string(run.reseed) + " ";
     return text;
   }
@@ -287,31 +304,30 @@ TEST_F(MergeResults, JoinsShards) {
   stepped.steps[0].details.resize(3);
   stepped.steps[0].details[1].index = 1;
   stepped.steps[0].details[2].index = 2;
-  write("b", {stepped});
-  write("a", {sampleRun("bc-1", 0, 0), sampleRun("bc-1", 0, 1), sampleRun("bc-3", 2, 0)});
+  write({stepped}, "b");
+  write({sampleRun("bc-1", 0, 0), sampleRun("bc-1", 0, 1), sampleRun("bc-3", 2, 0)}, "a");
   const MergeCounts counts = merge({"b", "a"});
   EXPECT_EQ(counts.runs, 4);
   EXPECT_EQ(counts.equal, 0);
   EXPECT_EQ(merged(), "bc-1/0 bc-1/1 os-2/0 bc-3/0 ");
   const Results results = readResults(folder_ / "out");
   EXPECT_EQ(results.runs[2].tags, stepped.tags);
-  ASSERT_EQ(results.facts.batch_runs.size(), 2u);
-  SqlDatabase database(folder_ / "out", SqlAccess::kRead);
-  EXPECT_EQ(
-      textOf(database.value("SELECT machine FROM run JOIN batch_run ON batch_run.id = batch_run "
-                            "WHERE case_id = 'bc-3'")),
-      "a");
-  EXPECT_EQ(integerOf(database.value("SELECT count(*) FROM iteration JOIN run ON run.id = run "
-                                     "WHERE case_id = 'os-2'")),
-            2);
-  EXPECT_EQ(integerOf(database.value("SELECT count(*) FROM match")), 3);
+  EXPECT_EQ(results.facts.batch_runs.size(), 2u);
+  EXPECT_EQ(query(folder_ / "out",
+                  "SELECT machine FROM run JOIN batch_run ON batch_run.id = batch_run "
+                  "WHERE case_id = 'bc-3'"),
+            "a|");
+  EXPECT_EQ(query(folder_ / "out",
+                  "SELECT case_id FROM iteration JOIN run ON run.id = run; "
+                  "SELECT count(*) FROM match"),
+            "os-2|os-2|3|");
 }
 
 TEST_F(MergeResults, TakesEqualRunsOnceAndMayBeRepeated) {
   RunResult slower = sampleRun("bc-1", 0, 0);
   slower.seconds.matching = 9.0;
-  write("a", {sampleRun("bc-1", 0, 0), sampleRun("bc-1", 0, 1)});
-  write("b", {slower, sampleRun("os-2", 1, 0)});
+  write({sampleRun("bc-1", 0, 0), sampleRun("bc-1", 0, 1)}, "a");
+  write({slower, sampleRun("os-2", 1, 0)}, "b");
   EXPECT_EQ(merge({"a", "b"}).equal, 1);
   EXPECT_EQ(merge({"a", "b"}).equal, 4);
   EXPECT_EQ(merged(), "bc-1/0 bc-1/1 os-2/0 ");
@@ -319,59 +335,52 @@ TEST_F(MergeResults, TakesEqualRunsOnceAndMayBeRepeated) {
   EXPECT_EQ(folder_.fileCount(), 3u);
 }
 
+/// By their digests, or by their poses where a method has none.
 TEST_F(MergeResults, RunsWithDifferentResults_AreRefused) {
-  RunResult other = sampleRun("bc-1", 0, 0);
-  other.digest = "abd";
-  write("a", {sampleRun("bc-1", 0, 0)});
-  write("b", {other, sampleRun("os-2", 1, 0)});
-  EXPECT_THAT(refusal({"a", "b"}),
+  RunResult run = sampleRun("bc-1", 0, 0);
+  write({run}, "a");
+  run.digest = "abd";
+  write({run, sampleRun("os-2", 1, 0)}, "b");
+  EXPECT_THAT(mergeRefusal({"a", "b"}),
               HasSubstr("b: run of bc-1: seed 0, method whs has another result"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
   EXPECT_EQ(folder_.fileCount(), 2u);
+  run.digest.clear();
+  for (const char* name : {"c", "d"}) write({run}, name);
+  EXPECT_EQ(merge({"c", "d"}).equal, 1);
+  run.camera_from_station.translation_m.x() += 1e-6;
+  write({run}, "e");
+  EXPECT_THAT(mergeRefusal({"c", "e"}), HasSubstr("has another result"));
 }
 
-TEST_F(MergeResults, ComparesPosesWhereAMethodHasNoDigest) {
-  RunResult run_result = sampleRun("bc-1", 0, 0);
-  run_result.digest.clear();
-  RunResult other = run_result;
-  write("a", {run_result});
-  write("b", {other});
-  EXPECT_EQ(merge({"a", "b"}).equal, 1);
-  other.camera_from_station.translation_m.x() += 1e-6;
-  write("c", {other});
-  EXPECT_THAT(refusal({"a", "c"}), HasSubstr("has another result"));
-}
-
-TEST_F(MergeResults, RefusesOtherOptionsAndDatasets) {
-  write("a", {sampleRun("bc-1", 0, 0)});
+TEST_F(MergeResults, RefusesOtherOptionsDatasetsAndFiles) {
+  write({sampleRun("bc-1", 0, 0)}, "a");
   MethodFacts method = sampleMethod("whs");
   method.options_sha256 = "o2";
   method.options = "{}";
-  write("b", {sampleRun("os-2", 1, 0)}, sampleDataset(), method);
-  EXPECT_EQ(refusal({"a", "b"}).substr(0, 78),
+  write({sampleRun("os-2", 1, 0)}, "b", method);
+  EXPECT_EQ(mergeRefusal({"a", "b"}).substr(0, 78),
             "a: its runs of whs have other options: pnp.seed 7, not the profile's, as those");
   DatasetFacts dataset = sampleDataset();
   dataset.dataset_sha256 = "d2";
-  write("c", {sampleRun("os-2", 1, 0)}, dataset);
-  EXPECT_THAT(refusal({"a", "c"}), HasSubstr("another dataset"));
+  write({sampleRun("os-2", 1, 0)}, "c", sampleMethod("whs"), dataset);
+  EXPECT_THAT(mergeRefusal({"a", "c"}), HasSubstr("another dataset"));
+  folder_.write("d", "no");
+  EXPECT_THAT(mergeRefusal({"d"}), HasSubstr("d: "));
+  EXPECT_THAT(mergeRefusal({"none"}), HasSubstr("none: there is no such file"));
 }
 
 TEST_F(MergeResults, PrefersARunToARefusedInput) {
   RunResult bad = sampleRun("bc-1", 0, 0);
   bad.status = "input_error";
   bad.digest.clear();
-  write("a", {bad});
-  write("b", {sampleRun("bc-1", 0, 0)});
-  EXPECT_EQ(merge({"a", "b"}).runs, 1);
-  EXPECT_EQ(readResults(folder_ / "out").runs.front().status, "converged");
-  EXPECT_EQ(merge({"a"}).runs, 1) << "nothing of what was merged before is lost";
-  EXPECT_EQ(readResults(folder_ / "out").runs.front().status, "converged");
-}
-
-TEST_F(MergeResults, OtherFiles_AreReported) {
-  folder_.write("a", "no");
-  EXPECT_THAT(refusal({"a"}), HasSubstr("a: "));
-  EXPECT_THAT(refusal({"none"}), HasSubstr("none: there is no such file"));
+  write({bad}, "a");
+  write({sampleRun("bc-1", 0, 0)}, "b");
+  // Nothing of what was merged before is lost.
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"a", "b"}, {"a"}}) {
+    EXPECT_EQ(merge(names).runs, 1);
+    EXPECT_EQ(readResults(folder_ / "out").runs.front().status, "converged");
+  }
 }
 
 }  // namespace

@@ -15,34 +15,26 @@ RunResult completedWith(double normal_mm) {
   result.case_id = "bc-1";
   result.status = "converged";
   result.completed = true;
-  result.error = PoseError{};
-  result.error->normal_mm = normal_mm;
-  result.requirement = Requirement{};
-  result.requirement->normal_mm = 0.4;
+  result.error.emplace().normal_mm = normal_mm;
+  result.requirement.emplace().normal_mm = 0.4;
   return result;
 }
 
-struct JudgedRun {
-  const char* name;
-  double normal_mm;  ///< 0.4 is required
-  bool completed;
-  bool has_truth;
-  bool wrong_mesh;
-  std::optional<bool> success;
-  bool false_positive;
-  bool gross;
-};
-
 TEST(Judge, DecidesByTruthRequirementAndMesh) {
-  const JudgedRun runs[] = {
-      {"within the requirement", -0.39, true, true, false, true, false, false},
-      {"beyond the requirement", 0.41, true, true, false, false, true, false},
-      {"beyond three times the requirement", 1.21, true, true, false, false, true, true},
-      {"did not complete", 50.0, false, true, false, false, false, false},
-      {"without truth", 0.0, true, false, false, {}, false, false},
-      {"completed with a wrong mesh", 0.0, true, true, true, false, true, true},
-      {"did not complete with a wrong mesh", 0.0, false, true, true, false, false, false}};
-  for (const JudgedRun& run : runs) {
+  const struct {
+    const char* name;
+    double normal_mm;  ///< 0.4 is required
+    bool completed, has_truth, wrong_mesh;
+    std::optional<bool> success;
+    bool false_positive, gross;
+  } runs[] = {{"within the requirement", -0.39, true, true, false, true, false, false},
+              {"beyond the requirement", 0.41, true, true, false, false, true, false},
+              {"beyond three times the requirement", 1.21, true, true, false, false, true, true},
+              {"did not complete", 50.0, false, true, false, false, false, false},
+              {"without truth", 0.0, true, false, false, {}, false, false},
+              {"completed with a wrong mesh", 0.0, true, true, true, false, true, true},
+              {"did not complete with a wrong mesh", 0.0, false, true, true, false, false, false}};
+  for (const auto& run : runs) {
     SCOPED_TRACE(run.name);
     RunResult result = completedWith(run.normal_mm);
     result.completed = run.completed;
@@ -66,9 +58,10 @@ TEST(RunResultJson, HasTheFieldsOfALine) {
   EXPECT_EQ(json["error"]["normal_mm"], 0.01);
   EXPECT_EQ(json["error"]["projection_px"], 0.3);
   EXPECT_EQ(json.dump().find('\n'), std::string::npos);
+  EXPECT_TRUE(toJson(RunResult())["success"].is_null()) << "it cannot be judged";
 }
 
-TEST(NoteTrace, TakesTheProbabilityWithItsPartsFromTheRun) {
+TEST(NoteTrace, TakesTheProbabilityAndTheLeastMarginFromTheRun) {
   const LocalizationTrace& run = test::exampleTrace();
   ASSERT_GT(run.evidence.finest().places, 0);
   RunResult result;
@@ -77,22 +70,14 @@ TEST(NoteTrace, TakesTheProbabilityWithItsPartsFromTheRun) {
   EXPECT_EQ(result.evidence_nats, run.evidence.strongest_nats());
   EXPECT_EQ(result.weakest_quadrant_nats, run.evidence.weakest_nats());
   EXPECT_EQ(toJson(result)["probability"], run.probability);
-}
-
-TEST(NoteTrace, CountsCompetingPosesAndTakesTheLeastMargin) {
-  LocalizationTrace run;
+  LocalizationTrace competing;
   for (const double margin_nats : {7.5, -2.5, 4.0})
-    run.competing_poses.push_back({Pose(), 0.9, margin_nats});
-  RunResult result;
-  noteTrace(run, result);
-  EXPECT_EQ(result.competing_poses, 3);
-  EXPECT_EQ(result.least_margin_nats, -2.5);
-  EXPECT_EQ(result.probability, std::nullopt) << "the run measured no evidence";
-}
-
-TEST(RunResultJson, WritesNullForASuccessThatCannotBeJudged) {
-  RunResult result;
-  EXPECT_TRUE(toJson(result)["success"].is_null());
+    competing.competing_poses.push_back({Pose(), 0.9, margin_nats});
+  RunResult of_competing;
+  noteTrace(competing, of_competing);
+  EXPECT_EQ(of_competing.competing_poses, 3);
+  EXPECT_EQ(of_competing.least_margin_nats, -2.5);
+  EXPECT_EQ(of_competing.probability, std::nullopt) << "the run measured no evidence";
 }
 
 }  // namespace

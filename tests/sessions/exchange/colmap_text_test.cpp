@@ -8,29 +8,36 @@
 
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/exchange/posed_images.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::preparedCamera;
-using test::randomFor;
-using test::TemporaryFolder;
-using testing::HasSubstr;
 
-TEST(ColmapText, RoundTripIsExact) {
-  const TemporaryFolder folder;
-  Random random = randomFor("ColmapText.RoundTrip");
+/// Images as text, written to a folder and read from it.
+class ColmapText : public testing::Test {
+ protected:
+  void writeImages(std::span<const PosedImage> images) const {
+    writeColmapText(folder_ / "", images);
+  }
+  std::vector<PosedImage> readImages() const { return readColmapText(folder_ / ""); }
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(ColmapText, RoundTripIsExact) {
+  Random random = test::randomFor("ColmapText.RoundTrip");
   const std::vector<PosedImage> images =
       test::randomImages(random,
-                         {preparedCamera(CameraModel::kPinhole, {}),
+                         {preparedCamera(CameraModel::kPinhole),
                           preparedCamera(CameraModel::kBrownConrady, {-0.1, 0.02, 1e-4, -2e-4}),
                           preparedCamera(CameraModel::kBrownConrady,
                                          {-0.1, 0.02, 1e-4, -2e-4, 0.01, 0.001, 0.0, 1e-5}),
                           preparedCamera(CameraModel::kKannalaBrandt, {0.03, -0.01, 0.004, 0.001})},
                          10);
-  writeColmapText(folder / "", images);
-  const std::vector<PosedImage> read = readColmapText(folder / "");
+  writeImages(images);
+  const std::vector<PosedImage> read = readImages();
   ASSERT_EQ(read.size(), images.size());
   for (std::size_t i = 0; i < images.size(); ++i) {
     EXPECT_EQ(read[i].id, images[i].id);
@@ -43,52 +50,39 @@ TEST(ColmapText, RoundTripIsExact) {
   }
 }
 
-TEST(ColmapText, IsWhatColmapReads) {
-  const TemporaryFolder folder;
-  PosedImage image;
-  image.id = 7;
-  image.name = "a.png";
-  image.camera = preparedCamera(CameraModel::kPinhole, {});
-  image.camera_from_station.translation_m = {0.5, 0.25, 2.0};
-  writeColmapText(folder / "", {&image, 1});
+TEST_F(ColmapText, IsWhatColmapReads) {
+  const Pose pose{Eigen::Quaterniond::Identity(), {0.5, 0.25, 2.0}};
+  const PosedImage image{7, "a.png", preparedCamera(CameraModel::kPinhole), pose};
+  writeImages({&image, 1});
   // Half a pixel further: COLMAP's origin is the corner of the image.
-  EXPECT_THAT(folder.read("cameras.txt"),
+  EXPECT_THAT(folder_.read("cameras.txt"),
               HasSubstr("\n1 PINHOLE 640 480 700.25 701.125 319.875 241.6\n"));
-  EXPECT_THAT(folder.read("images.txt"), HasSubstr("\n7 1 0 0 0 0.5 0.25 2 1 a.png\n\n"));
+  EXPECT_THAT(folder_.read("images.txt"), HasSubstr("\n7 1 0 0 0 0.5 0.25 2 1 a.png\n\n"));
 }
 
-TEST(ColmapText, PointsOfSeveralImagesAreOnePointWithATrack) {
-  const TemporaryFolder folder;
-  std::vector<PosedImage> images(2);
-  const Eigen::Vector3d shared(0.0, 0.0, 0.0);
-  const Eigen::Vector3d own(0.1, 0.0, 0.0);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    images[i].id = static_cast<int>(3 + i);
-    images[i].name = std::to_string(i) + ".png";
-    images[i].camera = preparedCamera(CameraModel::kPinhole, {});
-    images[i].camera_from_station.translation_m = {0.0, 0.0, 1.0};
-  }
+TEST_F(ColmapText, PointsOfSeveralImagesAreOnePointWithATrack) {
+  const Camera camera = preparedCamera(CameraModel::kPinhole);
+  const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}};
+  std::vector<PosedImage> images = {{3, "0.png", camera, pose}, {4, "1.png", camera, pose}};
+  const Eigen::Vector3d shared(0.0, 0.0, 0.0), own(0.1, 0.0, 0.0);
   Eigen::Vector2d pixel;
-  ASSERT_TRUE(project(images[0].camera, {0.0, 0.0, 1.0}, pixel));
+  ASSERT_TRUE(project(camera, pose * shared, pixel));
   images[0].points = {{own, {10.0, 20.0}}, {shared, pixel + Eigen::Vector2d(0.5, 0.0)}};
   images[1].points = {{shared, pixel}};
-  writeColmapText(folder / "", images);
-  EXPECT_THAT(folder.read("images.txt"), HasSubstr(" 1 0.png\n10.5 20.5 1 "));
-  const std::string points = folder.read("points3D.txt");
+  writeImages(images);
+  EXPECT_THAT(folder_.read("images.txt"), HasSubstr(" 1 0.png\n10.5 20.5 1 "));
+  const std::string points = folder_.read("points3D.txt");
   EXPECT_THAT(points, HasSubstr("\n2 0 0 0 128 128 128 0.25 3 1 4 0\n")) << points;
   EXPECT_THAT(points, HasSubstr("\n1 0.1 0 0 128 128 128 "));
-  const auto read = readColmapText(folder / "");
-  ASSERT_EQ(read.size(), 2u);
-  EXPECT_EQ(read[1].name, "1.png");
+  EXPECT_EQ(readImages().at(1).name, "1.png");
 }
 
-TEST(ColmapText, ReadsSimplerModelsAndPoints) {
-  const TemporaryFolder folder;
-  folder.write("cameras.txt", "# a comment\n2 RADIAL 100 80 90 50 40 0.01 -0.002\n\n");
-  folder.write("images.txt",
-               "# a comment\n1 1 0 0 0 0 0 1 2 x y.png\r\n1.5 2.5 -1 3 4 17\n"
-               "2 0.6 0 0.8 0 0 0 1 2 b.png\n\n");
-  const std::vector<PosedImage> read = readColmapText(folder / "");
+TEST_F(ColmapText, ReadsSimplerModelsAndPoints) {
+  folder_.write("cameras.txt", "# a comment\n2 RADIAL 100 80 90 50 40 0.01 -0.002\n\n");
+  folder_.write("images.txt",
+                "# a comment\n1 1 0 0 0 0 0 1 2 x y.png\r\n1.5 2.5 -1 3 4 17\n"
+                "2 0.6 0 0.8 0 0 0 1 2 b.png\n\n");
+  const std::vector<PosedImage> read = readImages();
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].name, "x y.png");
   EXPECT_EQ(read[0].camera.fy, 90.0);
@@ -98,8 +92,7 @@ TEST(ColmapText, ReadsSimplerModelsAndPoints) {
 }
 
 /// COLMAP's own formulas (its sensor/models.h): a point (u, v, 1), pixels from the image's corner.
-TEST(ColmapText, FisheyesProjectAsColmapDoes) {
-  const TemporaryFolder folder;
+TEST_F(ColmapText, FisheyesProjectAsColmapDoes) {
   const double u = 0.31, v = -0.22, f = 210.0, fy = 212.0;
   const double radius = std::hypot(u, v), theta = std::atan(radius);
   const struct {
@@ -117,9 +110,9 @@ TEST(ColmapText, FisheyesProjectAsColmapDoes) {
                  {0.02, -0.01, 0.003, 0.001}}};
   for (const auto& model : models) {
     SCOPED_TRACE(model.line);
-    folder.write("cameras.txt", std::string(model.line) + "\n");
-    folder.write("images.txt", "1 1 0 0 0 0 0 1 1 a.png\n\n");
-    const Camera camera = readColmapText(folder / "").at(0).camera;
+    folder_.write("cameras.txt", std::string(model.line) + "\n");
+    folder_.write("images.txt", "1 1 0 0 0 0 0 1 1 a.png\n\n");
+    const Camera camera = readImages().at(0).camera;
     double distorted = theta;
     for (int i = 0; i < 4; ++i) distorted += model.k[i] * std::pow(theta, 2 * i + 3);
     Eigen::Vector2d pixel;
@@ -129,8 +122,7 @@ TEST(ColmapText, FisheyesProjectAsColmapDoes) {
   }
 }
 
-TEST(ColmapText, NamesWhatIsWrong) {
-  const TemporaryFolder folder;
+TEST_F(ColmapText, NamesWhatIsWrong) {
   const std::string remedy =
       "; undistort the images with COLMAP's image_undistorter and read its model";
   const std::pair<const char*, std::string> cameras[] = {
@@ -141,35 +133,32 @@ TEST(ColmapText, NamesWhatIsWrong) {
       {"PINHOLE 10 10 9 9 5", "cy is missing"},
       {"PINHOLE 10 10 9 9 5 5 5", "has extra values: '5'"},
       {"PINHOLE 10 10 0 9 5 5", "the parameters are not those of a camera"}};
-  folder.write("images.txt", "x");
-  const auto message = [&] { return folder.message([&] { (void)readColmapText(folder / ""); }); };
+  folder_.write("images.txt", "x");
+  const auto message = [&] { return folder_.message([&] { (void)readImages(); }); };
   for (const auto& [camera, refusal] : cameras) {
-    folder.write("cameras.txt", std::string("1 ") + camera + "\n");
+    folder_.write("cameras.txt", std::string("1 ") + camera + "\n");
     EXPECT_EQ(message(), "cameras.txt: line 1: " + refusal);
   }
-  folder.write("cameras.txt", "1 PINHOLE 10 10 9 9 5 5\n");
+  folder_.write("cameras.txt", "1 PINHOLE 10 10 9 9 5 5\n");
   const std::pair<const char*, const char*> images[] = {
       {"\n1 1 0 0 0 0 0 1 2 a.png", "line 2: there is no camera 2"},
       {"1 1 1 0 0 0 0 1 1 a.png", "line 1: the quaternion has not the length 1"},
       {"1 1 0 0 0 0 0 nan 1 a.png", "line 1: the translation: 'nan' is not a number"},
       {"1 1 0 0 0 0 0 1 1", "line 1: the image's name is missing"}};
   for (const auto& [image, refusal] : images) {
-    folder.write("images.txt", std::string(image) + "\n\n");
+    folder_.write("images.txt", std::string(image) + "\n\n");
     EXPECT_EQ(message(), std::string("images.txt: ") + refusal);
   }
 }
 
-TEST(ColmapText, RefusesWhatItCouldNotReadBack) {
-  const TemporaryFolder folder;
-  PosedImage image;
-  image.camera = preparedCamera(CameraModel::kPinhole, {});
-  image.name = "a.png";
-  EXPECT_THROW(writeColmapText(folder / "", {&image, 1}), OutputError);  // id 0
+TEST_F(ColmapText, RefusesWhatItCouldNotReadBack) {
+  PosedImage image{0, "a.png", preparedCamera(CameraModel::kPinhole), Pose()};
+  EXPECT_THROW(writeImages({&image, 1}), OutputError);  // id 0
   image.id = 1;
   const PosedImage twice[] = {image, image};
-  EXPECT_THROW(writeColmapText(folder / "", twice), OutputError);
+  EXPECT_THROW(writeImages(twice), OutputError);
   image.name = "a\nb";
-  EXPECT_THROW(writeColmapText(folder / "", {&image, 1}), OutputError);
+  EXPECT_THROW(writeImages({&image, 1}), OutputError);
 }
 
 }  // namespace

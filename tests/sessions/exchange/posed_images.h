@@ -14,27 +14,18 @@ inline std::vector<sessions::PosedImage> randomImages(Random& random,
                                                       const std::vector<Camera>& cameras,
                                                       int count) {
   std::vector<sessions::PosedImage> images;
-  for (int i = 0; i < count; ++i) {
-    sessions::PosedImage image;
-    image.id = 3 * i + 1;
-    image.name = "folder/image " + std::to_string(i) + ".png";
-    image.camera = cameras[static_cast<std::size_t>(i) % cameras.size()];
-    image.camera_from_station = randomPose(random);
-    images.push_back(image);
-  }
+  for (int i = 0; i < count; ++i)
+    images.push_back({3 * i + 1, "folder/image " + std::to_string(i) + ".png",
+                      cameras[static_cast<std::size_t>(i) % cameras.size()], randomPose(random)});
   return images;
 }
 
-inline Camera preparedCamera(CameraModel model, std::initializer_list<double> distortion) {
-  Camera camera;
-  camera.model = model;
-  camera.width = 640;
-  camera.height = 480;
-  camera.fx = 700.25;
+/// Its pixels are not quite square, its principal point is off the centre.
+inline Camera preparedCamera(CameraModel model, std::initializer_list<double> distortion = {}) {
+  Camera camera = makeCamera(model, 640, 480, 700.25, distortion);
   camera.fy = 701.125;
   camera.cx = 319.375;
   camera.cy = 241.1;
-  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
   EXPECT_EQ(prepareCamera(camera), Status::kOk);
   return camera;
 }

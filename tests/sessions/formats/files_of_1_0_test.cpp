@@ -29,16 +29,10 @@ std::filesystem::path fileOf1_0(const char* name) {
   return std::filesystem::path(BORESIGHT_FORMATS) / "1.0" / name;
 }
 
-TEST(FilesOf1_0, Camera) {
+TEST(FilesOf1_0, CameraPoseAndValidatedPose) {
   const Camera camera = readCamera(fileOf1_0("camera.json"));
-  EXPECT_EQ(camera.model, CameraModel::kBrownConrady);
-  EXPECT_EQ(camera.width, 1024);
-  EXPECT_EQ(camera.fx, 1552.5);
-  EXPECT_EQ(camera.cy, 509.15);
-  EXPECT_EQ(camera.distortion[1], 0.06);
-}
-
-TEST(FilesOf1_0, PoseAndValidatedPose) {
+  EXPECT_EQ(std::tie(camera.model, camera.width, camera.fx, camera.cy, camera.distortion[1]),
+            std::tuple(CameraModel::kBrownConrady, 1024, 1552.5, 509.15, 0.06));
   const Pose truth = readPose(fileOf1_0("pose.json")).camera_from_station;
   EXPECT_EQ(truth.translation_m.z(), 0.41271431107107504);
   const PoseFile validated = readPose(fileOf1_0("validated_pose.json"));
@@ -57,15 +51,12 @@ TEST(FilesOf1_0, Transforms) {
   EXPECT_EQ(several[1].target_from_source.translation_m.z(), 0.39);
 }
 
-TEST(FilesOf1_0, Dataset) {
+TEST(FilesOf1_0, DatasetAndOptions) {
   const Dataset dataset = readDataset(fileOf1_0("dataset.json"));
   EXPECT_EQ(dataset.cases.size(), 2u);
   EXPECT_EQ(dataset.stations.size(), 2u);
   ASSERT_TRUE(dataset.findCase("os-000038"));
   EXPECT_TRUE(dataset.findCase("os-000038")->truth_camera_from_station);
-}
-
-TEST(FilesOf1_0, Options) {
   LocalizerOptions options;
   applyConfig(options, readConfig(fileOf1_0("config.json")));
   EXPECT_EQ(options.pnp.seed, 7);
@@ -90,9 +81,8 @@ TEST(FilesOf1_0, Session) {
   EXPECT_EQ(session.runs.size(), 2u);
   const Decision* decision = session.decisionOn("bc-000028");
   ASSERT_TRUE(decision);
-  EXPECT_EQ(decision->verdict, Verdict::kValidated);
-  EXPECT_EQ(decision->by, "A. Operator");
-  EXPECT_EQ(decision->digest, kDigest);
+  EXPECT_EQ(std::tie(decision->verdict, decision->by, decision->digest),
+            std::tuple(Verdict::kValidated, "A. Operator", kDigest));
   const Recovery recovery = readJournal(fileOf1_0("journal"));
   EXPECT_EQ(recovery.edits, (std::vector<std::string>{"Rename", "Rename"}));
 }
@@ -107,9 +97,9 @@ TEST(FilesOf1_0, Record) {
 TEST(FilesOf1_0, Results) {
   const Results results = readResults(fileOf1_0("results.sqlite"));
   ASSERT_EQ(results.runs.size(), 2u);
-  EXPECT_EQ(results.runs[0].case_id, "bc-000028");
-  EXPECT_EQ(results.runs[0].digest, kDigest);
-  EXPECT_TRUE(results.runs[0].completed);
+  const auto& run = results.runs[0];
+  EXPECT_EQ(std::tie(run.case_id, run.digest, run.completed),
+            std::tuple("bc-000028", kDigest, true));
   EXPECT_EQ(results.facts.batch_runs.front().version, "1.0.0");
 }
 

@@ -11,7 +11,7 @@
 #include "sessions/io/datasets/dataset_file.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/io/json/config_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/sessions/io/folder_test.h"
 
 namespace boresight::sessions {
 namespace {
@@ -53,14 +53,11 @@ constexpr Read kReadCamera = [](const fs::path& file) { (void)readCameraFile(fil
 constexpr Read kReadPose = [](const fs::path& file) { (void)readPose(file); };
 constexpr Read kReadDataset = [](const fs::path& file) { (void)readDataset(file); };
 
-class UnknownMembers : public testing::Test {
+class UnknownMembers : public FolderTest {
  protected:
   std::string refusal(Read read, const json& content) const {
-    const fs::path file = folder_.write("f.json", content.dump());
-    return folder_.message([&] { read(file); });
+    return folder_.message([&] { read(folder_.write("f.json", content.dump())); });
   }
-
-  const test::TemporaryFolder folder_;
 };
 
 TEST_F(UnknownMembers, OfEveryObject_AreRefused) {

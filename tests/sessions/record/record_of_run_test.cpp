@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/record/onboard_record.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/record/compare_records.h"
 #include "sessions/run/runner.h"
 #include "tests/sessions/record/recorded_run.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
 
-using sessions::OnboardRecord;
-using sessions::RecordedIteration;
-using sessions::recordOf;
-using sessions::RunPlan;
+using namespace sessions;
 
 void expectEqual(const RecordedIteration& recorded, const RecordedIteration& other) {
-  const sessions::IterationTrace& a = recorded.trace;
-  const sessions::IterationTrace& b = other.trace;
+  const IterationTrace& a = recorded.trace;
+  const IterationTrace& b = other.trace;
   SCOPED_TRACE(a.index);
   EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.reached, b.reached);
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.camera_from_station_before, b.camera_from_station_before);
   EXPECT_EQ(a.camera_from_station, b.camera_from_station);
-  const auto counts = [](const sessions::IterationTrace& trace) {
+  const auto counts = [](const IterationTrace& trace) {
     return std::array{trace.index,
                       trace.attempt,
                       trace.level,
@@ -43,7 +40,7 @@ void expectEqual(const RecordedIteration& recorded, const RecordedIteration& oth
                       trace.chosen_hypothesis};
   };
   EXPECT_EQ(counts(a), counts(b));
-  const auto figures = [](const sessions::IterationTrace& trace) {
+  const auto figures = [](const IterationTrace& trace) {
     const bool rolled = !trace.hypotheses.empty();
     return std::array{
         trace.threshold_px,
@@ -89,44 +86,34 @@ void expectEqual(const OnboardRecord& a, const OnboardRecord& b) {
   EXPECT_EQ(a.end->digest, b.end->digest);
 }
 
-std::array<std::int32_t, 7> countsOf(const EdgeSupport& support) {
-  return {support.rendered,           support.covered, support.displaced,
-          support.displaced_covered,  support.seen,    support.explained,
-          support.displaced_explained};
-}
-
 TEST(RecordOfRun, EqualsTheRecordOfTheFlightSide) {
   const LocalizationProblem& problem = exampleRun().problem;
   const RecordedRun& run = exampleRun().run;
   const OnboardRecord record = recordOf(run.trace, &problem);
   EXPECT_TRUE(record.whole());
   expectEqual(record, run.record);
-  ASSERT_TRUE(record.iterations.back().support && run.record.iterations.back().support);
-  EXPECT_EQ(countsOf(*record.iterations.back().support),
-            countsOf(*run.record.iterations.back().support));
-
-  sessions::Runner stepped(problem, recordedOptions());
-  stepped.advance(sessions::StepUntil::kEnd);
-  expectEqual(recordOf(stepped.trace(), &problem), run.record);
+  const auto supportOf = [](const OnboardRecord& of) {
+    const EdgeSupport& support = of.iterations.back().support.value();
+    return std::array{support.rendered,           support.covered, support.displaced,
+                      support.displaced_covered,  support.seen,    support.explained,
+                      support.displaced_explained};
+  };
+  EXPECT_EQ(supportOf(record), supportOf(run.record));
 }
 
 /// Attempts that failed, hypotheses, options taken up on the way, and stages that were not reached.
 TEST(RecordOfRun, OfRunsThatFailToo) {
   const LocalizationProblem& problem = exampleRun().problem;
-  std::vector<RunPlan> plans;
-  const auto with = [](auto change) {
-    LocalizerOptions options = recordedOptions();
-    change(options);
-    return options;
-  };
-  plans.emplace_back(with([](auto& options) { options.support.min_support = 1.0; }));
-  plans.emplace_back(with([](auto& options) { options.pnp.min_inliers = 80; }));
-  plans.emplace_back(with([](auto& options) { options.templates.count = 4; }));  // too few
-  plans.emplace_back(with([](auto& options) { options.render.max_edge_pixels = 1000; }));
-  plans.push_back(RunPlan(recordedOptions(),
-                          {{2, with([](auto& options) { options.loop.render_again_px = 5.0; })},
-                           {90, recordedOptions()}}));
-  for (const RunPlan& plan : plans) {
+  std::array<LocalizerOptions, 5> options;
+  options.fill(recordedOptions());
+  options[0].support.min_support = 1.0;
+  options[1].pnp.min_inliers = 80;
+  options[2].templates.count = 4;  // too few
+  options[3].render.max_edge_pixels = 1000;
+  options[4].loop.render_again_px = 5.0;
+  for (const RunPlan& plan :
+       {RunPlan(options[0]), RunPlan(options[1]), RunPlan(options[2]), RunPlan(options[3]),
+        RunPlan(recordedOptions(), {{2, options[4]}, {90, recordedOptions()}})}) {
     const RecordedRun run = recordRun(problem, plan);
     SCOPED_TRACE(localizationStatusText(run.trace.status));
     expectEqual(recordOf(run.trace, &problem), run.record);
@@ -138,24 +125,25 @@ TEST(RecordOfRun, SaysWhatATraceAloneLacks) {
   const RecordedRun& run = exampleRun().run;
   const OnboardRecord alone = recordOf(run.trace, nullptr);
   EXPECT_FALSE(alone.inputs);
-  EXPECT_THAT(alone.missing, testing::ElementsAre(testing::HasSubstr("hashes of the inputs")));
+  EXPECT_THAT(alone.missing, ElementsAre(HasSubstr("hashes of the inputs")));
   // One digest is the same inputs, too.
-  EXPECT_EQ(compareRecords(alone, run.record).verdict, sessions::RunVerdict::kEqual);
-  const auto summary =
-      sessions::localize(problem, RunPlan(recordedOptions()), sessions::RecordLevel::kSummary);
+  const RecordComparison equal = compareRecords(alone, run.record);
+  EXPECT_EQ(equal.verdict, RunVerdict::kEqual);
+  EXPECT_EQ(equal.translation_mm, 0.0);
+  const auto summary = localize(problem, RunPlan(recordedOptions()), RecordLevel::kSummary);
   const OnboardRecord thin = recordOf(summary, &problem);
   EXPECT_FALSE(thin.whole());
   EXPECT_FALSE(thin.edges);
   const auto found = compareRecords(thin, run.record);
   EXPECT_FALSE(found.first);
-  EXPECT_EQ(found.verdict, sessions::RunVerdict::kEqual);
+  EXPECT_EQ(found.verdict, RunVerdict::kEqual);
 }
 
 TEST(RecordOfRun, OfAHaltedRunHasNoEnd) {
   const LocalizationProblem& problem = exampleRun().problem;
-  sessions::Runner run(problem, recordedOptions(), {.level = sessions::RecordLevel::kStages});
-  run.advance(sessions::StepUntil::kIteration);
-  run.advance(sessions::StepUntil::kStage);
+  Runner run(problem, recordedOptions(), {.level = RecordLevel::kStages});
+  run.advance(StepUntil::kIteration);
+  run.advance(StepUntil::kStage);
   ASSERT_TRUE(run.trace().last_under_way);
   const OnboardRecord record = recordOf(run.trace(), &problem);
   EXPECT_EQ(record.iterations.size(), 1u);

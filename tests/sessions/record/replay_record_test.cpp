@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/record/onboard_record.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,17 +10,13 @@
 #include "sessions/trace/run_text.h"
 #include "tests/sessions/record/recorded_run.h"
 #include "tests/support/all_cases.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::test {
 namespace {
 
-using sessions::IterationTrace;
-using sessions::LocalizationTrace;
-using sessions::OnboardRecord;
-using sessions::replayRecord;
-using testing::Contains;
-using testing::HasSubstr;
+using namespace sessions;
 
 /// Numbers of 32 bits near those of 64 that they were made of.
 constexpr double kFloat_px = 1e-4;
@@ -42,7 +37,7 @@ std::vector<std::uint8_t> colorOf(const ImageView& image) {
   return color;
 }
 
-void expectSameRender(const sessions::RenderTrace& a, const sessions::RenderTrace& b) {
+void expectSameRender(const RenderTrace& a, const RenderTrace& b) {
   EXPECT_EQ(a.camera_from_station, b.camera_from_station);
   EXPECT_EQ(a.edges.words, b.edges.words);
   EXPECT_EQ(a.mask.words, b.mask.words);
@@ -93,19 +88,20 @@ void expectSamePairs(const IterationTrace& a, const IterationTrace& b) {
 }
 
 void expectSameScores(const IterationTrace& a, const IterationTrace& b) {
-  const auto replayed_details = matchDetails(a);
-  const auto traced_details = matchDetails(b);
-  ASSERT_EQ(replayed_details.size(), traced_details.size());
-  for (std::size_t i = 0; i < traced_details.size(); ++i) {
-    if (!traced_details[i].searched) continue;
-    EXPECT_NEAR(replayed_details[i].score, traced_details[i].score, 1e-6);
-    EXPECT_EQ(std::isnan(replayed_details[i].second_score),
-              std::isnan(traced_details[i].second_score));
-    if (!std::isnan(traced_details[i].second_score)) {
-      EXPECT_NEAR(replayed_details[i].second_score, traced_details[i].second_score, 1e-6);
-      EXPECT_NEAR(replayed_details[i].margin, traced_details[i].margin, 1e-6);
+  const auto all_replayed = matchDetails(a);
+  const auto all_traced = matchDetails(b);
+  ASSERT_EQ(all_replayed.size(), all_traced.size());
+  for (std::size_t i = 0; i < all_traced.size(); ++i) {
+    const auto& replayed_match = all_replayed[i];
+    const auto& traced = all_traced[i];
+    if (!traced.searched) continue;
+    EXPECT_NEAR(replayed_match.score, traced.score, 1e-6);
+    EXPECT_EQ(std::isnan(replayed_match.second_score), std::isnan(traced.second_score));
+    if (!std::isnan(traced.second_score)) {
+      EXPECT_NEAR(replayed_match.second_score, traced.second_score, 1e-6);
+      EXPECT_NEAR(replayed_match.margin, traced.margin, 1e-6);
     }
-    EXPECT_TRUE(std::isnan(replayed_details[i].edge_share)) << "a record does not have it";
+    EXPECT_TRUE(std::isnan(replayed_match.edge_share)) << "a record does not have it";
   }
 }
 
@@ -126,22 +122,22 @@ TEST(ReplayRecord, EqualsTheGroundRunInCommonFields) {
   ASSERT_EQ(a.iterations.size(), b.iterations.size());
   for (std::size_t i = 0; i < b.iterations.size(); ++i) {
     SCOPED_TRACE(i);
-    const IterationTrace& iteration = *a.iterations[i];
-    EXPECT_EQ(iteration.camera_from_station, b.iterations[i]->camera_from_station);
-    EXPECT_EQ(iteration.camera_from_station_before, b.iterations[i]->camera_from_station_before);
-    EXPECT_EQ(iteration.uncertainty.rotation_rad, b.iterations[i]->uncertainty.rotation_rad);
-    EXPECT_EQ(iteration.uncertainty.pivot_in_camera_m,
-              b.iterations[i]->uncertainty.pivot_in_camera_m);
-    EXPECT_EQ(iteration.support(), b.iterations[i]->support());
-    EXPECT_EQ(iteration.rms_px(), b.iterations[i]->rms_px());
-    EXPECT_NEAR(iteration.mean_score, b.iterations[i]->mean_score, 1e-6);
-    expectSameRender(iteration.render, b.iterations[i]->render);
-    expectEqualTemplates(iteration, *b.iterations[i]);
-    expectSamePairs(iteration, *b.iterations[i]);
-    expectSameScores(iteration, *b.iterations[i]);
+    const IterationTrace& x = *a.iterations[i];
+    const IterationTrace& y = *b.iterations[i];
+    EXPECT_EQ(x.camera_from_station, y.camera_from_station);
+    EXPECT_EQ(x.camera_from_station_before, y.camera_from_station_before);
+    EXPECT_EQ(x.uncertainty.rotation_rad, y.uncertainty.rotation_rad);
+    EXPECT_EQ(x.uncertainty.pivot_in_camera_m, y.uncertainty.pivot_in_camera_m);
+    EXPECT_EQ(x.support(), y.support());
+    EXPECT_EQ(x.rms_px(), y.rms_px());
+    EXPECT_NEAR(x.mean_score, y.mean_score, 1e-6);
+    expectSameRender(x.render, y.render);
+    expectEqualTemplates(x, y);
+    expectSamePairs(x, y);
+    expectSameScores(x, y);
   }
-  EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge points of refinements")));
-  EXPECT_THAT(runStatusText(a), testing::StartsWith("Onboard record, replayed. Converged"));
+  EXPECT_THAT(a.remarks, ElementsAre(HasSubstr("edge points of refinements")));
+  EXPECT_THAT(runStatusText(a), StartsWith("Onboard record, replayed. Converged"));
 }
 
 TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
@@ -155,6 +151,10 @@ TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
   later.support.min_support = 1.0;
   const RecordedRun run = recordRun(problem, {first, {{2, later}}});
   ASSERT_GT(run.trace.attempts, 1);
+  ASSERT_TRUE(run.record.whole());
+  ASSERT_EQ(run.record.options.size(), 2u);
+  EXPECT_EQ(run.record.options[1].first_iteration, 2);
+  EXPECT_TRUE(sameOptions(planOf(run.record).plan.last(), later));
   EXPECT_TRUE(std::any_of(run.trace.iterations.begin(), run.trace.iterations.end(),
                           [](const auto& item) { return item->chosen_hypothesis > 0; }));
   const LocalizationTrace replay = replayRecord(run.record, problem);
@@ -164,7 +164,7 @@ TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
     expectSameRender(replay.iterations[i]->render, run.trace.iterations[i]->render);
     expectEqualTemplates(*replay.iterations[i], *run.trace.iterations[i]);
   }
-  EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge points of refinements")));
+  EXPECT_THAT(replay.remarks, ElementsAre(HasSubstr("edge points of refinements")));
 }
 
 /// What a replay shows is the whole record's, as far as it goes.
@@ -198,7 +198,7 @@ TEST(ReplayRecord, ShowsWhatIsLeftOfACutOrDamagedRecord) {
     else
       bytes[12 + random.below(static_cast<std::uint32_t>(size - 12))] ^=
           static_cast<std::uint8_t>(1u << random.below(8));
-    const OnboardRecord record = sessions::parseRecord("cut.whsr", bytes);
+    const OnboardRecord record = parseRecord("cut.whsr", bytes);
     EXPECT_FALSE(record.whole());
     expectBeginning(replayRecord(record, whole.problem), replayed());
   }
@@ -229,20 +229,16 @@ TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
 
 TEST(ReplayRecord, DifferencesFromTheRunOnBoard_AreReported) {
   const ExampleRun& whole = exampleRun();
-  const auto remarks = [&](const OnboardRecord& record, const LocalizationProblem& ground) {
-    return replayRecord(record, ground).remarks;
-  };
   ExampleCase other("os");
   for (auto& value : other.image.pixels) value = static_cast<std::uint8_t>(255 - value / 2);
-  EXPECT_THAT(remarks(whole.run.record, other.problem()),
-              testing::AllOf(Contains(HasSubstr("pixels differ from this case's image")),
-                             Contains(HasSubstr("image edges differ"))));
+  EXPECT_THAT(replayRecord(whole.run.record, other.problem()).remarks,
+              AllOf(Contains(HasSubstr("pixels differ from this case's image")),
+                    Contains(HasSubstr("image edges differ"))));
   const ExampleCase bc("bc");
-  EXPECT_THAT(
-      remarks(whole.run.record, bc.problem()),
-      testing::AllOf(Contains(HasSubstr("mesh differs")),
-                     Contains(HasSubstr("render differs from that on board in iteration 1")),
-                     Contains(HasSubstr("their points are unknown"))));
+  EXPECT_THAT(replayRecord(whole.run.record, bc.problem()).remarks,
+              AllOf(Contains(HasSubstr("mesh differs")),
+                    Contains(HasSubstr("render differs from that on board in iteration 1")),
+                    Contains(HasSubstr("their points are unknown"))));
   OnboardRecord larger = whole.run.record;
   larger.inputs->width *= 2;
   const LocalizationTrace poses = replayRecord(larger, whole.problem);
@@ -260,10 +256,10 @@ TEST(ReplayRecord, ColorOfTheImage_CountsOnlyWhereTheRunLookedAtIt) {
   const auto other_pixels = Contains(HasSubstr("pixels differ"));
 
   const RecordedRun& of_gray = exampleRun().run;
-  EXPECT_THAT(replayRecord(of_gray.record, colored).remarks, testing::Not(other_pixels));
+  EXPECT_THAT(replayRecord(of_gray.record, colored).remarks, Not(other_pixels));
   const RecordedRun of_color = recordRun(colored, recordedOptions());
   EXPECT_NE(of_color.trace.digest, of_gray.trace.digest);
-  EXPECT_THAT(replayRecord(of_color.record, colored).remarks, testing::Not(other_pixels));
+  EXPECT_THAT(replayRecord(of_color.record, colored).remarks, Not(other_pixels));
   EXPECT_THAT(replayRecord(of_color.record, gray).remarks, other_pixels);
 
   LocalizerOptions blind = recordedOptions();
@@ -276,11 +272,11 @@ TEST(RecordedPlan, SaysWhichOptionsItDoesNotKnow) {
   EXPECT_TRUE(planOf(record).remarks.empty());
   EXPECT_TRUE(sameOptions(planOf(record).plan.options, recordedOptions()));
   auto& options = record.options.front().options;
-  options.push_back({"later.option", OptionKind::kInteger, 5});
+  options.push_back({"later.option", boresight::OptionKind::kInteger, 5});
   std::erase_if(options, [](const auto& item) { return item.name == "pnp.seed"; });
   for (auto& item : options)
     if (item.name == "loop.max_attempts") item.bits = 99;
-  const sessions::RecordedPlan plan = planOf(record);
+  const RecordedPlan plan = planOf(record);
   EXPECT_TRUE(plan.has_options);
   EXPECT_THAT(plan.remarks, testing::UnorderedElementsAre(HasSubstr("later.option (5 on board)"),
                                                           HasSubstr("lacks the option pnp.seed"),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/report/trends.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/checks/pose_uncertainty.h"
@@ -9,12 +8,11 @@
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
-
-using ::testing::HasSubstr;
 
 std::vector<TrendPoint> pointsWith(std::initializer_list<double> figures, double sigma) {
   std::vector<TrendPoint> points;
@@ -36,18 +34,14 @@ std::vector<bool> flagsOf(std::vector<TrendPoint> points) {
 
 /// Median 3, MAD 1: beyond 3 +- 3.5 / 0.6745 = 3 +- 5.19 stands out.
 TEST(Trends, OutliersAreThoseOfTheModifiedScore) {
-  EXPECT_EQ(flagsOf(pointsWith({1, 2, 3, 4, 8.1}, 0.0)),
-            (std::vector<bool>{false, false, false, false, false}));
+  EXPECT_EQ(flagsOf(pointsWith({1, 2, 3, 4, 8.1}, 0.0)), std::vector<bool>(5, false));
   EXPECT_EQ(flagsOf(pointsWith({1, 2, 3, 4, 8.3}, 0.0)),
             (std::vector<bool>{false, false, false, false, true}));
   EXPECT_EQ(flagsOf(pointsWith({1, 2, 3, 4, 8.3}, 3.0)), std::vector<bool>(5, false));
   EXPECT_EQ(flagsOf(pointsWith({1, 2, 3, 100}, 0.0)), std::vector<bool>(4, false));  // too few
-}
-
-TEST(Trends, StationsAreJudgedByThemselves) {
   auto points = pointsWith({1, 2, 3, 4, 5, 100, 101, 102, 103, 104}, 0.0);
   for (std::size_t i = 5; i < points.size(); ++i) points[i].station = "os";
-  EXPECT_EQ(flagsOf(points), std::vector<bool>(10, false));
+  EXPECT_EQ(flagsOf(points), std::vector<bool>(10, false)) << "each station by itself";
 }
 
 TEST(Trends, PointOfASessionIsItsCorrection) {
@@ -61,17 +55,16 @@ TEST(Trends, PointOfASessionIsItsCorrection) {
   session = withRun(session, storeRun(session, id, run, file));
   writeSessionFile(file, session);
   std::vector<std::string> remarks;
-  const std::vector<std::filesystem::path> files = {file};
-  const auto points = trendOf(files, remarks);
+  const auto points = trendOf({&file, 1}, remarks);
   ASSERT_EQ(points.size(), 1u);
-  EXPECT_THAT(remarks, ::testing::ElementsAre(HasSubstr("has no run")));  // the other case
+  EXPECT_THAT(remarks, ElementsAre(HasSubstr("has no run")));  // the other case
   SessionCase session_case = *session.cases.front();
   if (!session_case.camera_from_end_effector) session_case.camera_from_end_effector = Pose();
   const Pose move = endEffectorPose(session_case, run.camera_from_station, Matrix6d::Zero())
                         .end_effector_seed_from_end_effector_estimated.inverse();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(points[0].figures[axis],
-                1e3 * move.translation_m[static_cast<Eigen::Index>(axis)], 1e-9);
+    EXPECT_NEAR(points[0].figures[axis], 1e3 * move.translation_m[static_cast<Eigen::Index>(axis)],
+                1e-9);
     EXPECT_GT(points[0].sigmas[axis], 0.0);
   }
   EXPECT_THAT(trendCsv(points), HasSubstr("correction_x_mm,sigma_of_correction_x_mm"));

@@ -3,10 +3,10 @@
 
 #include <map>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/sessions/annotation/annotated_scene.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
@@ -15,20 +15,17 @@ using sessions::annotationConcern;
 using sessions::AnnotationConcern;
 using sessions::CaseAnnotationsSolution;
 using sessions::PoseQuality;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// A pose known to this, where 0.4 mm are required; nothing: not known.
 PoseQuality qualityOf(std::optional<double> found_mm) {
-  sessions::PrecisionFigure figure{{"covariance_lateral", ""},
-                                   "across the view axis",
-                                   "mm",
-                                   0.4,
-                                   found_mm,
-                                   found_mm,
-                                   " at the camera"};
-  return {3.0, {figure}};
+  return {3.0,
+          {{{"covariance_lateral", ""},
+            "across the view axis",
+            "mm",
+            0.4,
+            found_mm,
+            found_mm,
+            " at the camera"}}};
 }
 
 /// Eight points of a scene. `errors_px`: errors in x, px, by the index of the point.
@@ -50,14 +47,11 @@ std::string idOf(const CaseAnnotationsSolution& solution, std::size_t index) {
   return solution.annotations.views[0].annotations.points[index].id;
 }
 
-TEST(AnnotationConcern, GoodAnnotationsWithinTheRequirement_AreNone) {
+TEST(AnnotationConcern, GoodAnnotations_AreNoneWithinTheRequirement) {
   const AnnotationConcern concern = annotationConcern(solutionWith({}), qualityOf(0.3));
   EXPECT_EQ(concern.text, "");
   EXPECT_THAT(concern.suspects, IsEmpty());
   EXPECT_EQ(annotationConcern(CaseAnnotationsSolution(), qualityOf({})).text, "");
-}
-
-TEST(AnnotationConcern, PoseBeyondTheRequirement_HasTheFigureOfTheResult) {
   EXPECT_EQ(annotationConcern(solutionWith({}), qualityOf(0.9)).text,
             "Pose known to 0.90 of 0.40 mm (3 sigma across the view axis at the camera).");
 }
@@ -68,11 +62,12 @@ TEST(AnnotationConcern, MaskedErrors_AreNamedByTheRobustSolution) {
   const CaseAnnotationsSolution solution = solutionWith(errors_px);
   const AnnotationConcern concern = annotationConcern(solution, qualityOf(0.3));
   EXPECT_THAT(concern.text, HasSubstr("times the stated sigmas."));
-  EXPECT_THAT(concern.suspects, ElementsAre(idOf(solution, 1), idOf(solution, 4)));
+  const auto both = ElementsAre(idOf(solution, 1), idOf(solution, 4));
+  EXPECT_THAT(concern.suspects, both);
   EXPECT_FALSE(concern.robust);
   const AnnotationConcern robust = annotationConcern(solutionWith(errors_px, true), qualityOf(0.3));
   EXPECT_TRUE(robust.robust);
-  EXPECT_THAT(robust.suspects, ElementsAre(idOf(solution, 1), idOf(solution, 4)));
+  EXPECT_THAT(robust.suspects, both);
   EXPECT_EQ(robust.text, "") << "the others fit";
 }
 

@@ -3,10 +3,9 @@
 #include <functional>
 #include <map>
 
-#include <gmock/gmock.h>
-
 #include "sessions/review/review_status.h"
 #include "tests/sessions/review/judged_case.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
@@ -17,7 +16,6 @@ using sessions::ReviewState;
 using sessions::reviewStatusOf;
 using sessions::reviewStatusText;
 using sessions::Session;
-using testing::HasSubstr;
 
 std::string refusal(const std::function<void()>& act) {
   try {
@@ -28,40 +26,47 @@ std::string refusal(const std::function<void()>& act) {
   return "";
 }
 
-TEST(Decide, Validation_NeedsNameCommentAndWaivers) {
-  Random random = randomFor("Decide.Validation");
-  JudgedCase judged(random);
-  const auto refused = [&judged](const sessions::CheckWaivers& waivers,
-                                 const sessions::Signature& who) {
+sessions::Annotations someAnnotations(Random& random) {
+  sessions::Annotations annotations;
+  while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
+  return annotations;
+}
+
+void expectRefused(const std::string& why, const std::function<void()>& act) {
+  EXPECT_THAT(refusal(act), HasSubstr(why));
+}
+
+struct Decide : testing::Test {
+  Random random = randomFor("Decide.Dropped");
+  JudgedCase judged{random};
+};
+
+TEST_F(Decide, Validation_NeedsNameCommentAndWaivers) {
+  const auto refused = [&](const sessions::CheckWaivers& waivers,
+                           const sessions::Signature& who = {"Ada", "right"}) {
     return refusal([&] { validated(judged.session, judged.subject, judged.checks, waivers, who); });
   };
-  EXPECT_EQ(refused({}, {"Ada", "right"}), "");
+  EXPECT_EQ(refused({}), "");
   EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give your name"));
   EXPECT_THAT(refused({}, {"Ada", " \n"}), HasSubstr("give a comment"));
-  EXPECT_THAT(refused({{"converged", "so"}}, {"Ada", "right"}), HasSubstr("has not failed"));
-  EXPECT_THAT(refused({{"nothing", "so"}}, {"Ada", "right"}), HasSubstr("no check 'nothing'"));
-
-  judged.checks[0].state = CheckState::kFailed;
-  judged.checks[1].state = CheckState::kFailed;
-  EXPECT_THAT(refused({}, {"Ada", "right"}), HasSubstr("Check of converged, Check of coverage"));
-  EXPECT_THAT(refused({{"converged", "seen"}}, {"Ada", "right"}), HasSubstr("Check of coverage"));
-  EXPECT_THAT(refused({{"converged", "seen"}, {"coverage", " "}}, {"Ada", "right"}),
-              HasSubstr("give a reason"));
-  EXPECT_EQ(refused({{"converged", "seen"}, {"coverage", "a shadow"}}, {"Ada", "right"}), "");
+  EXPECT_THAT(refused({{"converged", "so"}}), HasSubstr("has not failed"));
+  EXPECT_THAT(refused({{"nothing", "so"}}), HasSubstr("no check 'nothing'"));
+  judged.checks[0].state = judged.checks[1].state = CheckState::kFailed;
+  EXPECT_THAT(refused({}), HasSubstr("Check of converged, Check of coverage"));
+  EXPECT_THAT(refused({{"converged", "seen"}}), HasSubstr("Check of coverage"));
+  EXPECT_THAT(refused({{"converged", "seen"}, {"coverage", " "}}), HasSubstr("give a reason"));
+  EXPECT_EQ(refused({{"converged", "seen"}, {"coverage", "a shadow"}}), "");
 }
 
-TEST(Decide, NothingIsValidatedWithoutAnyCheck) {
-  Random random = randomFor("Decide.NoChecks");
-  JudgedCase judged(random);
-  judged.checks.clear();
-  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("has not been checked"));
-  judged.checks = {JudgedCase::check("truth", CheckState::kNotApplicable)};
-  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("has not been checked"));
+TEST_F(Decide, NothingIsValidatedWithoutAnyCheck) {
+  for (const auto& checks :
+       {std::vector<sessions::Check>(), {JudgedCase::check("truth", CheckState::kNotApplicable)}}) {
+    judged.checks = checks;
+    expectRefused("has not been checked", [&] { judged.validatedBy("Ada"); });
+  }
 }
 
-TEST(Decide, Validation_StoresPoseChecksAndWaivers) {
-  Random random = randomFor("Decide.Holds");
-  JudgedCase judged(random);
+TEST_F(Decide, Validation_StoresPoseChecksAndWaivers) {
   judged.checks[1].state = CheckState::kFailed;
   const Session next = validated(judged.session, judged.subject, judged.checks,
                                  {{"coverage", "  half of it is dark "}}, {" Ada ", "right"});
@@ -78,67 +83,52 @@ TEST(Decide, Validation_StoresPoseChecksAndWaivers) {
   EXPECT_EQ(reviewStatusText(reviewStatusOf(next, "a")), "validated by Ada");
 }
 
-TEST(Decide, OnlyTheLastConvergedRunOfTheseInputsCanBeValidated) {
-  Random random = randomFor("Decide.Concern");
-  JudgedCase judged(random);
-  const auto refused = [&judged] { return refusal([&judged] { judged.validatedBy("Ada"); }); };
-
+TEST_F(Decide, OnlyTheLastConvergedRunOfTheseInputsCanBeValidated) {
   JudgedCase other = judged;
+  const auto validate = [&other] { other.validatedBy("Ada"); };
   other.subject.run->status = LocalizationStatus::kNotSupported;
-  EXPECT_THAT(refusal([&] { other.validatedBy("Ada"); }), HasSubstr("did not converge"));
-
+  expectRefused("did not converge", validate);
   sessions::SessionCase moved = *judged.session.findCase("a");
   moved.camera_from_station_seed.translation_m.x() += 1e-9;
   other = judged;
   other.session = withCase(judged.session, moved);
-  EXPECT_THAT(refusal([&] { other.validatedBy("Ada"); }), HasSubstr("inputs have changed"));
-
-  judged.noteRun(randomSha256(random), "converged", random);
-  EXPECT_THAT(refused(), HasSubstr("not the last run"));
-  judged.session = withoutCase(judged.session, "a");
-  EXPECT_THAT(refused(), HasSubstr("no case 'a'"));
+  expectRefused("inputs have changed", validate);
+  other = judged;
+  other.noteRun(randomSha256(random), "converged", random);
+  expectRefused("not the last run", validate);
+  other.session = withoutCase(other.session, "a");
+  expectRefused("no case 'a'", validate);
 }
 
-TEST(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
-  Random random = randomFor("Decide.Dropped");
-  const JudgedCase judged(random);
+TEST_F(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
   const Session before = judged.validatedBy("Ada");
-  using Edit = std::function<void(Session&, sessions::SessionCase&)>;
-  const std::map<std::string, Edit> edits = {
+  const std::map<std::string, std::function<void(Session&, sessions::SessionCase&)>> edits = {
       {"the image, camera, mesh, seed or mask has",
        [](Session&, auto& item) { item.camera_from_station_seed.translation_m.x() += 1e-12; }},
-      {"the truth has", [&](Session&, auto& item) { item.camera_from_station_truth = Pose(); }},
+      {"the truth has", [](Session&, auto& item) { item.camera_from_station_truth = Pose(); }},
       {"the stated sigmas of mesh and camera have",
        [](Session&, auto& item) { item.mesh_scale_sigma = 1e-3; }},
       {"the stated sigmas of mesh and camera",
        [](Session&, auto& item) {
-         item.camera_covariance = sessions::CameraCovariance{Eigen::MatrixXd::Identity(12, 12)};
+         item.camera_covariance.emplace().of_vectors.setIdentity(12, 12);
        }},
       {"the requirement has",
-       [](Session&, auto& item) {
-         item.requirement = {1.0, {}, {}, {}};
-       }},
+       [](Session&, auto& item) { item.requirement.emplace().normal_mm = 1.0; }},
       {"the end effector has",
        [](Session&, auto& item) { item.camera_from_end_effector = Pose(); }},
-      {"the rig has",
-       [](Session&, auto& item) {
-         item.rig = sessions::Rig{"r", Pose()};
-       }},
+      {"the rig has", [](Session&, auto& item) { item.rig.emplace().id = "r"; }},
       {"the onboard record has",
        [&](Session&, auto& item) { item.onboard_record = randomInput(random, ".whsr"); }},
       {"the limits of the checks have",
        [](Session& session, auto&) { session.review.preset = "photographs"; }},
       {"there is a later run",
        [&](Session& session, auto&) {
-         sessions::RunRecord run = session.runs.back();
-         run.digest = randomSha256(random);
-         session.runs.push_back(run);
+         session.runs.push_back(session.runs.back());
+         session.runs.back().digest = randomSha256(random);
        }},
       {"its run is missing", [](Session& session, auto&) { session.runs.clear(); }},
       {"the annotations have", [&](Session& session, auto& item) {
-         sessions::Annotations annotations;
-         while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
-         session = withAnnotations(session, item.id, annotations);
+         session = withAnnotations(session, item.id, someAnnotations(random));
        }}};
   for (const auto& [text, edit] : edits) {
     Session after = before;
@@ -149,15 +139,12 @@ TEST(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
     EXPECT_NE(status.state, ReviewState::kValidated) << text;
     EXPECT_FALSE(status.holds()) << text;
     EXPECT_THAT(status.dropped, HasSubstr(text));
-    EXPECT_THAT(reviewStatusText(status), testing::StartsWith("NOT VALIDATED: "));
+    EXPECT_THAT(reviewStatusText(status), StartsWith("NOT VALIDATED: "));
   }
 }
 
-TEST(Decide, RobustAnnotations_InvalidateAValidationOfAnAnnotatedCase) {
-  Random random = randomFor("Decide.Robust");
-  JudgedCase judged(random);
-  sessions::Annotations annotations;
-  while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
+TEST_F(Decide, RobustAnnotations_InvalidateAValidationOfAnAnnotatedCase) {
+  const sessions::Annotations annotations = someAnnotations(random);
   for (const bool annotated : {false, true}) {
     if (annotated) judged.session = withAnnotations(judged.session, "a", annotations);
     Session after = judged.validatedBy("Ada");
@@ -166,9 +153,7 @@ TEST(Decide, RobustAnnotations_InvalidateAValidationOfAnAnnotatedCase) {
   }
 }
 
-TEST(Decide, NewRunOfTheRigsOtherCamera_InvalidatesAValidation) {
-  Random random = randomFor("Decide.OtherCamera");
-  JudgedCase judged(random);
+TEST_F(Decide, NewRunOfTheRigsOtherCamera_InvalidatesAValidation) {
   sessions::SessionCase session_case = *judged.session.findCase("a");
   session_case.rig = sessions::Rig{"rig", Pose()};
   sessions::SessionCase other = session_case;
@@ -176,62 +161,24 @@ TEST(Decide, NewRunOfTheRigsOtherCamera_InvalidatesAValidation) {
   judged.session = withCase(withCase(judged.session, session_case), other);
   Session after = judged.validatedBy("Ada");
   EXPECT_TRUE(reviewStatusOf(after, "a").holds());
-  sessions::RunRecord run = after.runs.back();
-  run.case_id = "b";
-  after.runs.push_back(run);
+  after.runs.push_back(after.runs.back());
+  after.runs.back().case_id = "b";
   EXPECT_EQ(reviewStatusOf(after, "a").dropped, "the runs of the rig's other cameras have changed");
   after.runs.back().together =
       sessions::TogetherRecord{{{"b", "converged"}, {"a", "converged"}}, ""};
   EXPECT_TRUE(reviewStatusOf(after, "a").holds()) << "a run in which it had a part is no witness";
 }
 
-TEST(Decide, ChangeOfNonInputs_KeepsADecision) {
-  Random random = randomFor("Decide.Stands");
-  const JudgedCase judged(random);
+TEST_F(Decide, ChangeOfNonInputs_KeepsADecisionWhichOtherOptionsMakeOutdated) {
   Session after = judged.validatedBy("Ada");
   sessions::SessionCase session_case = *after.findCase("a");
   session_case.tags.push_back("looked at");
   session_case.camera_from_station_working = randomPose(random);
   after = withCase(after, session_case);
   after.review.second_person = false;
-  after.options = {{"pnp.seed", std::int64_t{7}}};  // the run's own are part of its digest
-  after.runs.push_back(after.runs.back());          // the same run once more
-  EXPECT_EQ(reviewStatusOf(after, "a").state, ReviewState::kValidated);
-}
-
-TEST(Decide, Approval_ByTheSamePerson_IsRefused) {
-  Random random = randomFor("Decide.Approval");
-  JudgedCase judged(random);
-  judged.session.review.second_person = true;
-  EXPECT_THAT(refusal([&] {
-                approved(judged.session, "a", {"Bob", "yes"});
-              }),
-              HasSubstr("no validation"));
-  const Session first = judged.validatedBy("Ada L");
-  EXPECT_EQ(reviewStatusOf(first, "a").state, ReviewState::kConverged);
-  EXPECT_TRUE(reviewStatusOf(first, "a").awaits_approval);
-  EXPECT_THAT(reviewStatusText(reviewStatusOf(first, "a")), HasSubstr("second person"));
-  EXPECT_THAT(refusal([&] {
-                approved(first, "a", {"ada  l ", "yes"});
-              }),
-              HasSubstr("another person"));
-  EXPECT_THAT(refusal([&] { approved(first, "a", {"Bob", ""}); }), HasSubstr("comment"));
-
-  const Session second = approved(first, "a", {"Bob", "yes"});
-  EXPECT_EQ(reviewStatusOf(second, "a").state, ReviewState::kValidated);
-  EXPECT_EQ(reviewStatusText(reviewStatusOf(second, "a")), "validated by Ada L, approved by Bob");
-  EXPECT_THAT(refusal([&] { approved(second, "a", {"Eve", "yes"}); }), HasSubstr("already"));
-  Session other = first;
-  other.runs.clear();
-  EXPECT_THAT(refusal([&] { approved(other, "a", {"Bob", "yes"}); }), HasSubstr("no longer holds"));
-}
-
-TEST(Decide, ValidationOfARunWithOtherOptions_IsOutdatedAndHolds) {
-  Random random = randomFor("Decide.Outdated");
-  const JudgedCase judged(random);
-  Session after = judged.validatedBy("Ada");
+  after.runs.push_back(after.runs.back());  // the same run once more
   EXPECT_EQ(reviewStatusOf(after, "a").outdated, "");
-  after.options = {{"pnp.min_inliers", std::int64_t{20}}};
+  after.options = {{"pnp.min_inliers", std::int64_t{20}}};  // the run's own are part of its digest
   const sessions::ReviewStatus status = reviewStatusOf(after, "a");
   EXPECT_TRUE(status.holds());
   EXPECT_EQ(status.state, ReviewState::kValidated);
@@ -241,24 +188,34 @@ TEST(Decide, ValidationOfARunWithOtherOptions_IsOutdatedAndHolds) {
   EXPECT_EQ(reviewStatusOf(after, "a").outdated, "") << "as it was";
 }
 
-TEST(Decide, Rejection_NeedsNoPoseAndCanBeWithdrawn) {
-  Random random = randomFor("Decide.Rejection");
-  JudgedCase judged(random);
+TEST_F(Decide, Approval_ByTheSamePerson_IsRefused) {
+  judged.session.review.second_person = true;
+  expectRefused("no validation", [&] { approved(judged.session, "a", {"Bob", "yes"}); });
+  const Session first = judged.validatedBy("Ada L");
+  EXPECT_EQ(reviewStatusOf(first, "a").state, ReviewState::kConverged);
+  EXPECT_TRUE(reviewStatusOf(first, "a").awaits_approval);
+  EXPECT_THAT(reviewStatusText(reviewStatusOf(first, "a")), HasSubstr("second person"));
+  expectRefused("another person", [&] { approved(first, "a", {"ada  l ", "yes"}); });
+  expectRefused("comment", [&] { approved(first, "a", {"Bob", ""}); });
+  const Session second = approved(first, "a", {"Bob", "yes"});
+  EXPECT_EQ(reviewStatusOf(second, "a").state, ReviewState::kValidated);
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(second, "a")), "validated by Ada L, approved by Bob");
+  expectRefused("already", [&] { approved(second, "a", {"Eve", "yes"}); });
+  Session other = first;
+  other.runs.clear();
+  expectRefused("no longer holds", [&] { approved(other, "a", {"Bob", "yes"}); });
+}
+
+TEST_F(Decide, Rejection_NeedsNoPoseAndCanBeWithdrawn) {
   judged.session.runs.clear();
   const Session rejected = sessions::rejected(judged.session, "a", {}, {"Ada", "blurred"});
   EXPECT_EQ(reviewStatusOf(rejected, "a").state, ReviewState::kRejected);
   EXPECT_EQ(reviewStatusText(reviewStatusOf(rejected, "a")), "NOT VALIDATED: rejected by Ada");
-  EXPECT_THAT(refusal([&] {
-                sessions::rejected(judged.session, "a", {}, {"Ada", ""});
-              }),
-              HasSubstr("comment"));
+  expectRefused("comment", [&] { sessions::rejected(judged.session, "a", {}, {"Ada", ""}); });
   const Session again = reopened(rejected, "a", {"Bob", "another image came down"});
   EXPECT_EQ(reviewStatusOf(again, "a").state, ReviewState::kNew);
   EXPECT_EQ(again.decisions.size(), 2u);
-  EXPECT_THAT(refusal([&] {
-                reopened(again, "a", {"Bob", "once more"});
-              }),
-              HasSubstr("no decision"));
+  expectRefused("no decision", [&] { reopened(again, "a", {"Bob", "once more"}); });
 }
 
 }  // namespace

@@ -74,16 +74,11 @@ TEST(OutsideMatching, RendersFlatPartsByTheirAlbedo) {
   EXPECT_GT(compared, 50000);
 }
 
-TEST(OutsideMatching, RendersPartsOfOneAlbedoAsThoseWithout) {
+TEST(OutsideMatching, RendersPartsOfOneAlbedoAsThoseWithoutAndABlackPartApartFromTheBackground) {
   const Camera camera = test::makePinhole(300, 200, 500.0);
-  const double alike[] = {0.3, 0.3};
+  const double alike[] = {0.3, 0.3}, black[] = {0.0, 0.4};
   EXPECT_EQ(renderOf(camera, alike), renderOf(camera, {}));
-}
-
-TEST(OutsideMatching, KeepsABlackPartApartFromTheBackground) {
-  const Camera camera = test::makePinhole(300, 200, 500.0);
-  const double albedo[] = {0.0, 0.4};
-  const std::vector<std::uint8_t> render = renderOf(camera, albedo);
+  const std::vector<std::uint8_t> render = renderOf(camera, black);
   ASSERT_EQ(render.size(), 300u * 200u);
   EXPECT_EQ(render[100 * 300 + 125], 1);
   EXPECT_EQ(render[100 * 300 + 50], 0);

@@ -32,17 +32,12 @@ TEST(PoseFollower, UntilAFirstPose_FramesStartFromTheFirstSeed) {
   }
 }
 
-TEST(PoseFollower, AcceptedPose_IsTheNextSeedWithTheMotionBetweenFrames) {
+/// 10 mm and 2 deg, 20 mm and 4 deg; 40 mm would exceed the first seed's.
+TEST(PoseFollower, AcceptedPose_IsTheNextSeedWithTheMotionWhichLostFramesDouble) {
   PoseFollower follower(at(0.5), kFirst, kMotion);
   follower.take(at(0.49));
   EXPECT_EQ(follower.camera_from_station(), at(0.49));
   EXPECT_EQ(follower.uncertainty(), kMotion);
-}
-
-/// 10 mm and 2 deg, 20 mm and 4 deg; 40 mm would exceed the first seed's.
-TEST(PoseFollower, LostFrames_DoubleTheUncertaintyUpToTheFirstSeeds) {
-  PoseFollower follower(at(0.5), kFirst, kMotion);
-  follower.take(at(0.49));
   follower.take(std::nullopt);
   EXPECT_EQ(follower.uncertainty(), box(0.01, 2.0, UncertaintyPivot::kStation));
   follower.take(std::nullopt);

@@ -1,40 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/problem.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/example_case.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
 namespace {
 
-using testing::HasSubstr;
-
-class SeedConcern : public testing::Test {
- protected:
-  std::string concern(const Eigen::Vector3d& moved_m) const {
-    Pose seed = example_.seed.camera_from_station;
+TEST(SeedConcern, NamesAStationBehindTheCameraOrOutOfView) {
+  const test::ExampleCase example("bc");
+  const auto concern = [&example](const Eigen::Vector3d& moved_m) {
+    Pose seed = example.seed.camera_from_station;
     seed.translation_m += moved_m;
-    return seedConcern(example_.camera, example_.scene.view(), seed);
-  }
-
-  const test::ExampleCase example_{"bc"};
-};
-
-TEST_F(SeedConcern, IsEmptyForASensibleSeed) { EXPECT_EQ(concern({0.0, 0.0, 0.0}), ""); }
-
-TEST_F(SeedConcern, NamesAStationBehindTheCamera) {
+    return seedConcern(example.camera, example.scene.view(), seed);
+  };
+  EXPECT_EQ(concern({0.0, 0.0, 0.0}), "");
+  EXPECT_EQ(concern({0.15, 0.0, 0.0}), "") << "it is partly in view";
   EXPECT_THAT(concern({0.0, 0.0, -2.0}), HasSubstr("behind the camera"));
-}
-
-TEST_F(SeedConcern, NamesAStationOutOfView) {
   EXPECT_THAT(concern({2.0, 0.0, 0.0}), HasSubstr("out of view"));
   EXPECT_THAT(concern({0.0, -2.0, 0.0}), HasSubstr("out of view"));
 }
-
-TEST_F(SeedConcern, AcceptsAStationThatIsPartlyInView) { EXPECT_EQ(concern({0.15, 0.0, 0.0}), ""); }
 
 TEST(SeedConcernOfAWall, AcceptsFacesThatCoverTheImageWithoutAVertexInIt) {
   const std::vector<Eigen::Vector3f> vertices = {

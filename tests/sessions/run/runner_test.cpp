@@ -5,25 +5,18 @@
 
 #include <cmath>
 
-#include "tests/support/example_case.h"
+#include "tests/support/example_run.h"
 
 namespace boresight::sessions {
 namespace {
 
-const LocalizationTrace& wholeRun() {
-  static const LocalizationTrace trace =
-      localize(test::osExample().problem(), defaultProfile(), RecordLevel::kFull);
-  return trace;
-}
+const LocalizationTrace& wholeRun() { return test::exampleTrace(); }
 
 TEST(Runner, HaltingChangesNoBit) {
   for (const StepUntil until : {StepUntil::kStage, StepUntil::kIteration, StepUntil::kEnd}) {
     Runner run(test::osExample().problem(), defaultProfile());
     int halts = 0;
-    while (!run.finished() && halts < 10000) {
-      run.advance(until);
-      ++halts;
-    }
+    for (; !run.finished() && halts < 10000; ++halts) run.advance(until);
     EXPECT_EQ(run.trace().digest, wholeRun().digest);
     EXPECT_EQ(run.trace().iterations.size(), wholeRun().iterations.size());
     if (until == StepUntil::kEnd) {
@@ -54,15 +47,22 @@ TEST(Runner, Restart_GivesTheDigestOfANewRun) {
   EXPECT_EQ(run.trace().digest, wholeRun().digest);
 }
 
-TEST(Runner, StopsBetweenSlicesAndGoesOn) {
+TEST(Runner, StopsBetweenSlicesAndGoesOnWithoutChangingASnapshot) {
   Runner run(test::osExample().problem(), defaultProfile());
   std::stop_source stopped;
   stopped.request_stop();
   run.advance(StepUntil::kEnd, stopped.get_token());
   EXPECT_FALSE(run.finished());
   EXPECT_TRUE(run.trace().iterations.empty());
+  run.advance(StepUntil::kIteration);
+  const LocalizationTrace before = run.trace();
+  const auto first = before.iterations.at(0);
+  const std::int32_t inliers = first->pnp.inlier_count;
   run.advance(StepUntil::kEnd);
   EXPECT_EQ(run.trace().digest, wholeRun().digest);
+  EXPECT_EQ(before.iterations.size(), 1u);
+  EXPECT_EQ(first->pnp.inlier_count, inliers);
+  EXPECT_EQ(run.trace().iterations.at(0), first) << "shared, not copied";
 }
 
 TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
@@ -77,36 +77,20 @@ TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
   EXPECT_FALSE(run.trace().candidates.empty());
   EXPECT_TRUE(run.trace().iterations.empty());
 
-  run.advance(StepUntil::kStage);
-  ASSERT_EQ(run.trace().iterations.size(), 1u);
+  const auto firstAfter = [&run](Stage stage) {
+    run.advance(StepUntil::kStage);
+    const auto first = run.trace().iterations.at(0);
+    EXPECT_EQ(first->reached, stage);
+    return first;
+  };
+  const auto rendered = firstAfter(Stage::kRender);
   EXPECT_TRUE(run.trace().last_under_way);
-  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kRender);
-  EXPECT_GT(run.trace().iterations[0]->edge_pixel_count, 100);
-  EXPECT_TRUE(run.trace().iterations[0]->templates.empty());
-
-  run.advance(StepUntil::kStage);
-  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kTemplates);
-  EXPECT_GT(run.trace().iterations[0]->template_count, 6);
-
-  run.advance(StepUntil::kStage);
-  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kMatch);
-  EXPECT_EQ(run.trace().iterations[0]->matches.size(), run.trace().iterations[0]->templates.size());
-
-  run.advance(StepUntil::kStage);
-  EXPECT_EQ(run.trace().iterations[0]->reached, Stage::kPose);
-  EXPECT_FALSE(run.trace().iterations[0]->pnp.inlier.empty());
-}
-
-TEST(Runner, Snapshot_IsImmutable) {
-  Runner run(test::osExample().problem(), defaultProfile());
-  run.advance(StepUntil::kIteration);
-  const LocalizationTrace before = run.trace();
-  const auto first = before.iterations.at(0);
-  const std::int32_t inliers = first->pnp.inlier_count;
-  run.advance(StepUntil::kEnd);
-  EXPECT_EQ(before.iterations.size(), 1u);
-  EXPECT_EQ(first->pnp.inlier_count, inliers);
-  EXPECT_EQ(run.trace().iterations.at(0), first) << "shared, not copied";
+  EXPECT_GT(rendered->edge_pixel_count, 100);
+  EXPECT_TRUE(rendered->templates.empty());
+  EXPECT_GT(firstAfter(Stage::kTemplates)->template_count, 6);
+  const auto matched = firstAfter(Stage::kMatch);
+  EXPECT_EQ(matched->matches.size(), matched->templates.size());
+  EXPECT_FALSE(firstAfter(Stage::kPose)->pnp.inlier.empty());
 }
 
 }  // namespace

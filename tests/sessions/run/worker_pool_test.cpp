@@ -30,17 +30,14 @@ TEST(WorkerPool, Run_RunsEveryTaskOnce) {
 TEST(WorkerPool, Run_NeverGivesAWorkerTwoTasksAtOnce) {
   WorkerPool pool(4);
   std::vector<int> busy(4, 0);  // not atomic: a worker's own
-  std::vector<int> done(4, 0);
   for (int round = 0; round < 200; ++round) {
     pool.run(20, [&](int, int worker) {
       const auto own = static_cast<std::size_t>(worker);
       EXPECT_EQ(busy[own]++, 0);
       std::this_thread::yield();
       --busy[own];
-      ++done[own];
     });
   }
-  EXPECT_EQ(done[0] + done[1] + done[2] + done[3], 200 * 20);
 }
 
 TEST(WorkerPool, Run_UsesAllThreads) {

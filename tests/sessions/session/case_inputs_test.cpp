@@ -4,23 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "sessions/io/files/errors.h"
-#include "tests/support/example_case.h"
+#include "tests/sessions/session/example_session.h"
 #include "tests/support/matchers.h"
-#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
-CaseFiles exampleFiles() {
-  const std::filesystem::path os = test::exampleFolder() / "os";
-  CaseFiles files;
-  files.image = os / "image.png";
-  files.camera = os / "camera.json";
-  files.parts.emplace_back().mesh = os / "model.ply";
-  files.parts.front().mesh_unit = "m";
-  files.seed = os / "seed.json";
-  return files;
-}
+CaseFiles exampleFiles() { return test::filesOf(test::exampleFolder() / "os"); }
 
 JudgedFile judgedOf(const JudgedFiles& judged, InputKind kind) {
   return judged[static_cast<std::size_t>(kind)];
@@ -29,9 +19,10 @@ JudgedFile judgedOf(const JudgedFiles& judged, InputKind kind) {
 TEST(JudgeFiles, GoodFiles_SayWhatTheyAre) {
   const JudgedFiles judged = judgeFiles(exampleFiles());
   for (const JudgedFile& file : judged) EXPECT_EQ(file.problem, "");
-  EXPECT_EQ(judgedOf(judged, InputKind::kImage).text, "1024 x 1024 px, 8 bit");
-  ASSERT_TRUE(judgedOf(judged, InputKind::kImage).image);
-  EXPECT_EQ(judgedOf(judged, InputKind::kImage).image->width, 1024);
+  const JudgedFile image = judgedOf(judged, InputKind::kImage);
+  EXPECT_EQ(image.text, "1024 x 1024 px, 8 bit");
+  ASSERT_TRUE(image.image);
+  EXPECT_EQ(image.image->width, 1024);
   EXPECT_THAT(judgedOf(judged, InputKind::kCamera).text,
               AllOf(HasSubstr("1024 x 1024 px, "), HasSubstr(" deg")));
   EXPECT_THAT(judgedOf(judged, InputKind::kMesh).text, HasSubstr(" faces"));
@@ -69,14 +60,12 @@ TEST(InputConcern, IsThatOfTheRun) {
   const auto refused = [](const SessionCase& session_case) {
     const auto loaded = loadCase(session_case);
     const auto concern = inputConcern(*loaded);
-    bool throws = false;
-    try {
-      requireRunnable(*loaded);
-    } catch (const InputError&) {
-      throws = true;
+    if (!concern) {
+      EXPECT_NO_THROW(requireRunnable(*loaded));
+      return std::optional<InputKind>();
     }
-    EXPECT_EQ(concern.has_value(), throws);
-    return concern ? std::optional(concern->kind) : std::nullopt;
+    EXPECT_THROW(requireRunnable(*loaded), InputError);
+    return std::optional(concern->kind);
   };
   const SessionCase good = makeCase(exampleFiles()).made;
   EXPECT_EQ(refused(good), std::nullopt);
@@ -93,10 +82,9 @@ TEST(WithInputFile, TakesTheFileInPlaceOfTheFormerOne) {
   const test::TemporaryFolder folder;
   const SessionCase os = makeCase(exampleFiles()).made;
   const std::filesystem::path bc = test::exampleFolder() / "bc";
-  EXPECT_EQ(withInputFile(os, InputKind::kImage, bc / "image.png").image.source.file,
-            bc / "image.png");
-  EXPECT_NE(withInputFile(os, InputKind::kImage, bc / "image.png").image.pixels_sha256,
-            os.image.pixels_sha256);
+  const SessionCase other_image = withInputFile(os, InputKind::kImage, bc / "image.png");
+  EXPECT_EQ(other_image.image.source.file, bc / "image.png");
+  EXPECT_NE(other_image.image.pixels_sha256, os.image.pixels_sha256);
   EXPECT_EQ(withInputFile(os, InputKind::kMesh, bc / "model.ply", "m").parts.front().source.mesh,
             bc / "model.ply");
   SessionCase nudged = os;

@@ -14,30 +14,25 @@
 namespace boresight::test {
 namespace {
 
-using sessions::RunRecord;
-using sessions::Session;
-using sessions::SessionCase;
+using namespace sessions;
 
 /// Station "os", which runs without a search.
-Session sessionOfOs(const std::filesystem::path& stations) {
-  const Session all = sessions::makeSession(stations / "dataset.json");
-  Session os;
+Session sessionOfOs(const std::filesystem::path& stations = exampleFolder()) {
+  Session os = makeSession(stations / "dataset.json", {"os-000038"});
   os.options = {{"search.enabled", false}};
-  for (const auto& session_case : all.cases)
-    if (session_case->station == "os") os.cases.push_back(session_case);
   return os;
 }
 
 TEST(CaseRun, RefusesWhatCannotBeRun) {
   const TemporaryFolder folder;
-  const Session session = sessionOfOs(exampleFolder());
+  const Session session = sessionOfOs();
   const SessionCase& os = *session.cases[0];
   const auto message = [&](void (*spoil)(SessionCase&)) {
     SessionCase session_case = os;
     spoil(session_case);
-    return folder.message([&] { (void)sessions::runCase(withCase(session, session_case), os.id); });
+    return folder.message([&] { (void)runCase(withCase(session, session_case), os.id); });
   };
-  EXPECT_THAT(folder.message([&] { (void)sessions::runCase(session, "x"); }),
+  EXPECT_THAT(folder.message([&] { (void)runCase(session, "x"); }),
               HasSubstr("there is no case 'x'"));
   EXPECT_THAT(message([](auto& c) { c.camera.width = 100; }), HasSubstr("image size: is 1024"));
   EXPECT_THAT(message([](auto& c) { c.camera_from_station_seed.translation_m.z() *= -1; }),
@@ -48,150 +43,142 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
               HasSubstr("its 8-bit pixels differ from those"));
   Session options = session;
   options.options.emplace_back("pnp.nonsense", 1.0);
-  EXPECT_THAT(folder.message([&] { (void)sessions::runCase(options, os.id); }),
+  EXPECT_THAT(folder.message([&] { (void)runCase(options, os.id); }),
               HasSubstr("options.pnp.nonsense: unknown option"));
 }
 
 /// An unknown file in place of the mesh is not parsed.
 TEST(CaseRun, AMeshWithAnotherHashIsNotParsed) {
   const TemporaryFolder folder;
-  Session session = sessionOfOs(exampleFolder());
-  SessionCase session_case = *session.cases[0];
+  SessionCase session_case = *sessionOfOs().cases[0];
   session_case.parts[0].source.mesh = folder.write("m.ply", "this is no mesh");
-  const std::string expected =
-      "m.ply: its bytes differ from those of the session: relink the file, or accept it as it is "
-      "now";
-  EXPECT_EQ(folder.message([&] { (void)sessions::loadCase(session_case); }), expected);
-  session = withCase(session, session_case);
-  EXPECT_EQ(sessions::checkInputs(session).front().kind, sessions::FindingKind::kChanged);
+  EXPECT_EQ(folder.message([&] { (void)loadCase(session_case); }),
+            "m.ply: its bytes differ from those of the session: relink the file, or accept it as "
+            "it is now");
+  EXPECT_EQ(checkInputs(withCase({}, session_case)).front().kind, FindingKind::kChanged);
 }
 
 TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
   const TemporaryFolder folder;
-  SessionCase session_case = *sessionOfOs(exampleFolder()).cases[0];
+  SessionCase session_case = *sessionOfOs().cases[0];
   std::vector<std::uint8_t> mask(1024 * 1024, 0);
   mask[5] = 1;
-  sessions::writePng(folder / "m.png", mask, 1024, 1024, 1);
-  session_case.ignore =
-      sessions::InputFile{folder / "m.png", sessions::inputSha256(folder / "m.png")};
-  sessions::MaskStroke dot;
+  writePng(folder / "m.png", mask, 1024, 1024, 1);
+  session_case.ignore = InputFile{folder / "m.png", inputSha256(folder / "m.png")};
+  MaskStroke dot;
   dot.radius_px = 0.0;
   dot.points = {{7.0, 0.0}};
   session_case.ignore_strokes = {dot};
-  const auto loaded = sessions::loadCase(session_case);
+  const auto loaded = loadCase(session_case);
   EXPECT_EQ(loaded->ignore->ignored_count, 2);
   EXPECT_TRUE(loaded->problem().ignore->get(5, 0));
   EXPECT_TRUE(loaded->problem().ignore->get(7, 0));
-  session_case.ignore->sha256[0] = session_case.ignore->sha256[0] == '0' ? '1' : '0';
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(session_case); }),
+  session_case.ignore->sha256[0] ^= 1;
+  EXPECT_THAT(folder.message([&] { (void)loadCase(session_case); }),
               HasSubstr("m.png: its bytes differ from those"));
 }
 
 TEST(CaseRun, RunWithChangedOptions_IsRepeatedFromItsRecord) {
   const TemporaryFolder folder;
-  Session session = sessionOfOs(exampleFolder());
+  Session session = sessionOfOs();
   const std::string id = session.cases[0]->id;
   const std::filesystem::path file = folder / "s.json";
-  const auto loaded = sessions::loadCase(*session.cases[0]);
-  const sessions::LocalizationTrace first = sessions::runCase(session, *loaded);
-  const RunRecord plain = sessions::storeRun(session, id, first, file);
+  const auto loaded = loadCase(*session.cases[0]);
+  const LocalizationTrace first = runCase(session, *loaded);
+  const RunRecord plain = storeRun(session, id, first, file);
   EXPECT_FALSE(plain.rerun.has_value());
 
   LocalizerOptions other = first.options;
   other.loop.render_again_px = 5.0;
-  const sessions::RunPlan plan = continuedPlan(first.plan(), 2, other);
-  const sessions::LocalizationTrace again = sessions::runCase(*loaded, plan);
+  const RunPlan plan = continuedPlan(first.plan(), 2, other);
+  const LocalizationTrace again = runCase(*loaded, plan);
   const Session changed = withOptions(session, "default", other);
-  RunRecord record = sessions::storeRun(changed, id, again, file, first.digest);
+  RunRecord record = storeRun(changed, id, again, file, first.digest);
   ASSERT_TRUE(record.rerun.has_value());
   EXPECT_EQ(record.rerun->from, first.digest);
   EXPECT_NE(record.digest, first.digest);
 
   // Only the session file is left.
   session = withRun(withRun(changed, plain), record);
-  sessions::writeSessionFile(file, session);
-  const Session reread = sessions::readSessionFile(file).session;
+  writeSessionFile(file, session);
+  const Session reread = readSessionFile(file).session;
   EXPECT_EQ(reread, session);
   ASSERT_EQ(reread.runs.size(), 2u);
-  EXPECT_FALSE(sessions::stalenessOf(reread.runs[1], reread, file).stale());
-  EXPECT_TRUE(sessions::stalenessOf(reread.runs[0], reread, file).options_changed);
-  const sessions::RunPlan read = sessions::planOf(reread.runs[1], reread, file);
-  EXPECT_EQ(sessions::runCase(*loaded, read).digest, record.digest);
-  EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[0], reread, file); }),
+  EXPECT_FALSE(stalenessOf(reread.runs[1], reread, file).stale());
+  EXPECT_TRUE(stalenessOf(reread.runs[0], reread, file).options_changed);
+  const RunPlan read = planOf(reread.runs[1], reread, file);
+  EXPECT_EQ(runCase(*loaded, read).digest, record.digest);
+  EXPECT_THAT(folder.message([&] { (void)planOf(reread.runs[0], reread, file); }),
               HasSubstr("the session's options have changed since the run"));
   const Session elsewhere = withChanged(reread, id, [](SessionCase& changed) {
     changed.camera_from_station_seed.translation_m.x() += 1e-6;
   });
-  EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[1], elsewhere, file); }),
+  EXPECT_THAT(folder.message([&] { (void)planOf(reread.runs[1], elsewhere, file); }),
               HasSubstr("have changed since the run"));
 }
 
 TEST(CaseRun, StoredRun_IsNamedByItsDigestAndInputs) {
   const TemporaryFolder folder;
-  const Session session = sessionOfOs(exampleFolder());
+  const Session session = sessionOfOs();
   const std::string id = session.cases[0]->id;
-  const sessions::LocalizationTrace trace = sessions::runCase(session, id);
-  const ExampleCase example("os");
+  const LocalizationTrace trace = runCase(session, id);
   LocalizerOptions options = defaultProfile();
   options.templates.feature_size_m = session.cases[0]->feature_size_m.value();
   options.search.enabled = false;
-  EXPECT_EQ(trace.digest,
-            sessions::localize(example.problem(), options, sessions::RecordLevel::kSummary).digest);
+  EXPECT_EQ(trace.digest, localize(osExample().problem(), options, RecordLevel::kSummary).digest);
   EXPECT_TRUE(trace.converged());
 
   const std::filesystem::path file = folder / "s.boresight.json";
-  const RunRecord run = sessions::storeRun(session, id, trace, file);
+  const RunRecord run = storeRun(session, id, trace, file);
   EXPECT_EQ(run.file, folder / "s.boresight.runs" / (trace.digest + ".trace"));
   EXPECT_EQ(run.status, "converged");
-  EXPECT_EQ(sessions::loadRun(run).digest, trace.digest);
+  EXPECT_EQ(loadRun(run).digest, trace.digest);
   // Immutable: the same run again leaves the file as it is.
-  const std::string bytes = folder.read("s.boresight.runs/" + trace.digest + ".trace");
-  sessions::LocalizationTrace slower = trace;
+  const std::string name = "s.boresight.runs/" + trace.digest + ".trace";
+  const std::string bytes = folder.read(name);
+  LocalizationTrace slower = trace;
   slower.seconds.matching += 1.0;
-  (void)sessions::storeRun(session, id, slower, file);
-  EXPECT_EQ(folder.read("s.boresight.runs/" + trace.digest + ".trace"), bytes);
+  (void)storeRun(session, id, slower, file);
+  EXPECT_EQ(folder.read(name), bytes);
   const Session ran = withRun(withRun(session, run), run);
   EXPECT_EQ(ran.runs.size(), 1u);
 
-  EXPECT_FALSE(sessions::stalenessOf(run, ran, file).stale());
+  EXPECT_FALSE(stalenessOf(run, ran, file).stale());
   SessionCase nudged = *ran.cases[0];
   nudged.camera_from_station_seed.translation_m.x() += 1e-6;
-  EXPECT_TRUE(sessions::stalenessOf(run, withCase(ran, nudged), file).inputs_changed);
+  EXPECT_TRUE(stalenessOf(run, withCase(ran, nudged), file).inputs_changed);
   LocalizerOptions other = sessionOptions(ran, file);
   other.pnp.seed += 1;
-  const sessions::Staleness options_changed =
-      sessions::stalenessOf(run, withOptions(ran, "default", other), file);
-  EXPECT_TRUE(options_changed.options_changed);
-  EXPECT_FALSE(options_changed.inputs_changed);
+  const Staleness stale = stalenessOf(run, withOptions(ran, "default", other), file);
+  EXPECT_TRUE(stale.options_changed && !stale.inputs_changed);
 
   RunRecord wrong = run;
-  wrong.digest[0] = wrong.digest[0] == '0' ? '1' : '0';
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(wrong); }), HasSubstr("digest: is"));
+  wrong.digest[0] ^= 1;
+  EXPECT_THAT(folder.message([&] { (void)loadRun(wrong); }), HasSubstr("digest: is"));
   wrong = run;
   wrong.status = "pnp_failed";
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(wrong); }),
+  EXPECT_THAT(folder.message([&] { (void)loadRun(wrong); }),
               HasSubstr("status: is converged, but the session states pnp_failed"));
   std::filesystem::remove(run.file);
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadRun(run); }), HasSubstr("no such file"));
-  EXPECT_EQ(sessions::checkInputs(ran).size(), 1u);
+  EXPECT_THAT(folder.message([&] { (void)loadRun(run); }), HasSubstr("no such file"));
+  EXPECT_EQ(checkInputs(ran).size(), 1u);
 }
 
 TEST(CaseRun, AStoppedRunIsNotStored) {
   const TemporaryFolder folder;
-  const Session session = sessionOfOs(exampleFolder());
+  const Session session = sessionOfOs();
+  const std::string id = session.cases[0]->id;
   std::stop_source stop;
   stop.request_stop();
-  const sessions::LocalizationTrace trace = sessions::runCase(
-      session, session.cases[0]->id, sessions::RecordLevel::kFull, stop.get_token());
-  EXPECT_THROW((void)sessions::storeRun(session, session.cases[0]->id, trace, folder / "s.json"),
-               std::logic_error);
+  const LocalizationTrace trace = runCase(session, id, RecordLevel::kFull, stop.get_token());
+  EXPECT_THROW((void)storeRun(session, id, trace, folder / "s.json"), std::logic_error);
   EXPECT_EQ(folder.fileCount(), 0u);
 }
 
 /// The archive's notes.
 std::vector<std::string> pack(const Session& session, const std::filesystem::path& session_file,
                               const std::filesystem::path& archive) {
-  const sessions::SessionPack plan = sessions::planPack(session, session_file);
+  const SessionPack plan = planPack(session, session_file);
   writePack(plan, archive);
   return plan.notes;
 }
@@ -199,13 +186,13 @@ std::vector<std::string> pack(const Session& session, const std::filesystem::pat
 TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
-  Session session = sessions::makeSession(stations / "dataset.json");
-  session.options = sessionOfOs(stations).options;
-  const std::string id = sessionOfOs(stations).cases[0]->id;
+  Session session = makeSession(stations / "dataset.json");
+  session.options = {{"search.enabled", false}};
+  const std::string id = "os-000038";
   const std::filesystem::path file = folder / "here/s.boresight.json";
   std::filesystem::create_directories(folder / "here");
-  const sessions::LocalizationTrace trace = sessions::runCase(session, id);
-  session = withRun(session, sessions::storeRun(session, id, trace, file));
+  const LocalizationTrace trace = runCase(session, id);
+  session = withRun(session, storeRun(session, id, trace, file));
   EXPECT_THAT(pack(session, file, folder / "s.zip"), IsEmpty());
   const std::string bytes = folder.read("s.zip");
   EXPECT_THAT(pack(session, file, folder / "s.zip"), IsEmpty());
@@ -215,18 +202,18 @@ TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
 
   unpack(folder / "s.zip", folder / "there");
   const std::filesystem::path unpacked = folder / "there/s.boresight/s.boresight.json";
-  const Session again = sessions::readSessionFile(unpacked).session;
-  EXPECT_THAT(sessions::checkInputs(again), IsEmpty());
+  const Session again = readSessionFile(unpacked).session;
+  EXPECT_THAT(checkInputs(again), IsEmpty());
   ASSERT_EQ(again.runs.size(), 1u);
-  EXPECT_FALSE(sessions::stalenessOf(again.runs[0], again, unpacked).stale());
-  EXPECT_EQ(sessions::loadRun(again.runs[0]).digest, trace.digest);
-  EXPECT_EQ(sessions::runCase(again, id).digest, trace.digest);
+  EXPECT_FALSE(stalenessOf(again.runs[0], again, unpacked).stale());
+  EXPECT_EQ(loadRun(again.runs[0]).digest, trace.digest);
+  EXPECT_EQ(runCase(again, id).digest, trace.digest);
 }
 
 TEST(SessionPack, ChangedOrOutsideFiles_AreRefused) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
-  Session session = sessions::makeSession(stations / "dataset.json");
+  Session session = makeSession(stations / "dataset.json");
   const std::string digest(64, 'd');
   session.runs.push_back({session.cases[0]->id, digest, folder / "gone.trace", "converged", "0.1.0",
                           "2026-01-31T23:59:59Z", digest, digest});
@@ -245,11 +232,6 @@ TEST(SessionPack, ChangedOrOutsideFiles_AreRefused) {
 /// A session of the example's os station in its own folder, with a file that is none of its own.
 class PackedMembers : public testing::Test {
  protected:
-  PackedMembers() : stations_(copyOfExamples(folder_)), session_(sessionOfOs(stations_)) {
-    std::filesystem::create_directories(folder_ / "elsewhere");
-    secret_ = folder_.write("elsewhere/secret.txt", "root:x:0:0");
-  }
-
   /// What packing says of the session after an edit of its case; nothing is written.
   std::string refusal(const std::function<void(SessionCase&)>& edit) const {
     SessionCase session_case = *session_.cases[0];
@@ -257,19 +239,16 @@ class PackedMembers : public testing::Test {
     return refusal(withCase(session_, session_case));
   }
   std::string refusal(const Session& session) const {
-    return folder_.message([&] { (void)sessions::planPack(session, file()); });
-  }
-  sessions::InputFile known(const std::filesystem::path& file) const {
-    return {file, sessions::inputSha256(file)};
+    return folder_.message([&] { (void)planPack(session, file()); });
   }
   std::filesystem::path file() const { return folder_ / "s.boresight.json"; }
 
   static constexpr const char* kLandmarks =
       R"({"format": "boresight-landmarks", "version": 1, "landmarks": []})";
-  TemporaryFolder folder_;
-  std::filesystem::path stations_;
-  Session session_;
-  std::filesystem::path secret_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path stations_ = copyOfExamples(folder_);
+  const std::filesystem::path secret_ = folder_.write("elsewhere/secret.txt", "root:x:0:0");
+  Session session_ = sessionOfOs(stations_);
 };
 
 TEST_F(PackedMembers, LandmarksAreLandmarksOfTheSessionsFolders) {
@@ -293,15 +272,14 @@ TEST_F(PackedMembers, LandmarksAreLandmarksOfTheSessionsFolders) {
 }
 
 TEST_F(PackedMembers, RunsAreTracesOfTheirDigests) {
-  session_.runs.push_back({session_.cases[0]->id, std::string(64, 'd'), secret_, "converged",
-                           "0.1.0", "2026-01-31T23:59:59Z", std::string(64, 'e'),
-                           std::string(64, 'f')});
+  const std::string id = session_.cases[0]->id, sha256(64, 'd');
+  session_.runs.push_back(
+      {id, sha256, secret_, "converged", "0.1.0", "2026-01-31T23:59:59Z", sha256, sha256});
   EXPECT_THAT(refusal(session_), HasSubstr("s.boresight.json: runs[0].file: elsewhere/secret.txt: "
                                            "not a trace of boresight"));
   session_.runs[0].file = "/etc/passwd";
   EXPECT_THAT(refusal(session_), HasSubstr("runs[0].file: /etc/passwd: it lies outside"));
-  const std::string id = session_.cases[0]->id;
-  const RunRecord run = sessions::storeRun(session_, id, sessions::runCase(session_, id), file());
+  const RunRecord run = storeRun(session_, id, runCase(session_, id), file());
   session_.runs[0].file = run.file;
   EXPECT_THAT(refusal(session_), HasSubstr("digest: is " + run.digest));
   session_.runs[0] = run;
@@ -309,18 +287,18 @@ TEST_F(PackedMembers, RunsAreTracesOfTheirDigests) {
 }
 
 TEST_F(PackedMembers, InputsAreOfTheirKindEvenWhenTheirHashesAreKnown) {
-  EXPECT_THAT(refusal([this](SessionCase& changed) { changed.image.source = known(secret_); }),
+  const InputFile secret = {secret_, inputSha256(secret_)};
+  EXPECT_THAT(refusal([&](SessionCase& changed) { changed.image.source = secret; }),
               HasSubstr("cases[0].image: elsewhere/secret.txt: "));
-  EXPECT_THAT(refusal([this](SessionCase& changed) { changed.ignore = known(secret_); }),
+  EXPECT_THAT(refusal([&](SessionCase& changed) { changed.ignore = secret; }),
               HasSubstr("cases[0].ignore: elsewhere/secret.txt: "));
-  EXPECT_THAT(refusal([this](SessionCase& changed) { changed.onboard_record = known(secret_); }),
+  EXPECT_THAT(refusal([&](SessionCase& changed) { changed.onboard_record = secret; }),
               HasSubstr("cases[0].onboard_record: elsewhere/secret.txt: "));
-  EXPECT_THAT(
-      refusal([this](SessionCase& session_case) {
-        session_case.parts[0].source.mesh = folder_.write("elsewhere/secret.ply", "root:x:0:0");
-        session_case.parts[0].sha256 = sessions::inputSha256(session_case.parts[0].source.mesh);
-      }),
-      HasSubstr("cases[0].parts[0]: elsewhere/secret.ply: "));
+  EXPECT_THAT(refusal([&](SessionCase& changed) {
+                changed.parts[0].source.mesh = folder_.write("elsewhere/secret.ply", "root:x:0:0");
+                changed.parts[0].sha256 = secret.sha256;  // of the same bytes
+              }),
+              HasSubstr("cases[0].parts[0]: elsewhere/secret.ply: "));
 }
 
 TEST_F(PackedMembers, AnInputThatIsALinkToElsewhereIsRefused) {
@@ -344,17 +322,18 @@ TEST_F(PackedMembers, MeshBuffers_AreStatedAndInTheMeshsFolder) {
     session_case.parts[0].source.mesh = folder_.write(
         "mesh/cube.gltf", test::gltf(cube, R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"));
     session_case.parts[0].source.mesh_unit = "";
-    session_case.parts[0].sha256 = sessions::inputSha256(session_case.parts[0].source.mesh);
+    session_case.parts[0].sha256 = inputSha256(session_case.parts[0].source.mesh);
     return withCase(session_, session_case);
   };
   folder_.write("mesh/cube.bin", buffer);
   const Session session = withBuffer("cube.bin");
   EXPECT_EQ(refusal(session), "(nothing)");
-  const sessions::SessionPack plan = sessions::planPack(session, file());
-  std::vector<std::string> names;
-  for (const sessions::PackedFile& packed_file : plan.files) names.push_back(packed_file.name);
-  EXPECT_THAT(names, ElementsAre(testing::EndsWith("/image.png"), testing::EndsWith("/cube.gltf"),
-                                 testing::EndsWith("/cube.bin")));
+  const SessionPack plan = planPack(session, file());
+  const auto named = [](const char* end) {
+    return testing::Field(&PackedFile::name, testing::EndsWith(end));
+  };
+  EXPECT_THAT(plan.files,
+              ElementsAre(named("/image.png"), named("/cube.gltf"), named("/cube.bin")));
   folder_.write("mesh/long.bin", buffer + "root:x:0:0");
   EXPECT_THAT(refusal(withBuffer("long.bin")),
               HasSubstr("cases[0].parts[0]: mesh/cube.gltf: buffers[0].byteLength: is "));
@@ -368,7 +347,7 @@ TEST_F(PackedMembers, MeshBuffers_AreStatedAndInTheMeshsFolder) {
 }
 
 TEST_F(PackedMembers, AFileThatChangesWhileItIsPackedIsRefused) {
-  const sessions::SessionPack plan = sessions::planPack(session_, file());
+  const SessionPack plan = planPack(session_, file());
   folder_.write("stations/os/image.png", "root:x:0:0");
   EXPECT_THAT(folder_.message([&] { writePack(plan, folder_ / "s.zip"); }),
               HasSubstr("stations/os/image.png: it changed during packing"));

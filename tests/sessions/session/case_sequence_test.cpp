@@ -76,9 +76,8 @@ TEST_F(CaseSequenceTest, StrokesOfTheMask_HideTheStationInEveryFrame) {
 TEST_F(CaseSequenceTest, SeedThatSeesNothing_IsRefusedByItsName) {
   SequenceOrder away = order();
   away.session_case.camera_from_station_seed.translation_m.x() += 5.0;
-  EXPECT_THAT(folder_.message([&] {
-    (void)sequenceInputs(away, {{}, {}, {}, {"case a", "seed"}});
-  }),
+  const auto read = [&away] { (void)sequenceInputs(away, {{}, {}, {}, {"case a", "seed"}}); };
+  EXPECT_THAT(folder_.message(read),
               HasSubstr("case a: seed: the station is entirely out of view"));
 }
 

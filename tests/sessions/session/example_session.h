@@ -28,6 +28,18 @@ inline void unpack(const std::filesystem::path& archive, const std::filesystem::
   ASSERT_EQ(std::system(command.c_str()), 0);
 }
 
+/// A transform by a shift along x, stated in a file.
+inline sessions::FrameTransform shifted(const sessions::FrameName& target,
+                                        const sessions::FrameName& source, double x_m) {
+  sessions::FrameTransform transform;
+  transform.target = target;
+  transform.source = source;
+  transform.target_from_source.translation_m = {x_m, 0.0, 0.0};
+  transform.comment = "by hand";
+  transform.file = "/folder/t.json";
+  return transform;
+}
+
 /// The files of one station.
 inline sessions::CaseFiles filesOf(const std::filesystem::path& station) {
   sessions::CaseFiles files;

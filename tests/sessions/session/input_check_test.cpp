@@ -14,9 +14,8 @@
 namespace boresight::test {
 namespace {
 
-using sessions::Finding;
-using sessions::FindingKind;
-using sessions::Session;
+using namespace sessions;
+
 using testing::Field;
 
 auto finding(FindingKind kind, const std::string& what, const std::string& text) {
@@ -27,47 +26,47 @@ auto finding(FindingKind kind, const std::string& what, const std::string& text)
 TEST(InputCheck, ReportsWhatIsMissingOrChanged) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
-  const Session session = sessions::makeSession(stations / "dataset.json");
-  EXPECT_THAT(sessions::checkInputs(session), IsEmpty());
+  const Session session = makeSession(stations / "dataset.json");
+  EXPECT_THAT(checkInputs(session), IsEmpty());
   std::filesystem::remove(stations / "bc/image.png");
   std::ofstream(stations / "bc/model.ply", std::ios::app) << "\n";
   folder.write("stations/os/image.png", "");
   EXPECT_THAT(
-      sessions::checkInputs(session),
+      checkInputs(session),
       ElementsAre(finding(FindingKind::kMissing, "image", "image.png: no such file"),
                   finding(FindingKind::kChanged, "parts[0]", "differs from the session's file"),
                   finding(FindingKind::kUnreadable, "image", "the file is empty")));
   std::filesystem::copy(stations / "os/model.ply", stations / "bc/model.ply",
                         std::filesystem::copy_options::overwrite_existing);
   for (const auto& session_case : session.cases)
-    EXPECT_NE(folder.message([&] { (void)sessions::loadCase(*session_case); }), "(nothing)");
+    EXPECT_NE(folder.message([&] { (void)loadCase(*session_case); }), "(nothing)");
 }
 
 TEST(InputCheck, ChangedInputs_AreLoadedOnlyAfterAcceptance) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
-  const Session session = sessions::makeSession(stations / "dataset.json");
-  const sessions::SessionCase& bc = *session.cases[0];
+  const Session session = makeSession(stations / "dataset.json");
+  const SessionCase& bc = *session.cases[0];
   std::filesystem::copy(stations / "os/image.png", stations / "bc/image.png",
                         std::filesystem::copy_options::overwrite_existing);
   std::filesystem::copy(stations / "os/model.ply", stations / "bc/model.ply",
                         std::filesystem::copy_options::overwrite_existing);
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(bc); }),
+  EXPECT_THAT(folder.message([&] { (void)loadCase(bc); }),
               HasSubstr("bc/image.png: its bytes differ from those of the session"));
-  const Session accepted = sessions::acceptingInputs(session, bc.id);
-  EXPECT_THAT(sessions::checkInputs(accepted), IsEmpty());
-  EXPECT_NO_THROW((void)sessions::loadCase(*accepted.cases[0]));
-  EXPECT_NE(sessions::inputsDigest(*accepted.cases[0]), sessions::inputsDigest(bc));
-  sessions::SessionCase half = bc;
+  const Session accepted = acceptingInputs(session, bc.id);
+  EXPECT_THAT(checkInputs(accepted), IsEmpty());
+  EXPECT_NO_THROW((void)loadCase(*accepted.cases[0]));
+  EXPECT_NE(inputsDigest(*accepted.cases[0]), inputsDigest(bc));
+  SessionCase half = bc;
   half.image = accepted.cases[0]->image;
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(half); }),
+  EXPECT_THAT(folder.message([&] { (void)loadCase(half); }),
               HasSubstr("bc/model.ply: its bytes differ from those"));
 }
 
 TEST(InputCheck, FindsMovedFilesByNameAndHash) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
-  const Session session = sessions::makeSession(stations / "dataset.json");
+  const Session session = makeSession(stations / "dataset.json");
   // The session lies elsewhere now, its inputs partly in other folders, next to a different file of
   // the same name.
   const std::filesystem::path other = folder / "other";
@@ -77,12 +76,12 @@ TEST(InputCheck, FindsMovedFilesByNameAndHash) {
   std::filesystem::rename(stations / "os/image.png", other / "os/image.png");
   std::filesystem::rename(stations / "os/model.ply", folder / "unreachable.ply");
   folder.write("other/bc/image.png", "false friend");
-  const auto relinks = sessions::findMissing(session, other / "s.json");
-  const Session found = sessions::relinked(session, relinks);
+  const auto relinks = findMissing(session, other / "s.json");
+  const Session found = relinked(session, relinks);
   EXPECT_EQ(found.cases[0]->image.source.file, other / "deep/er/bc/image.png");
   EXPECT_EQ(found.cases[0]->parts[0].source.mesh, other / "deep/er/bc/model.ply");
   EXPECT_EQ(found.cases[1]->image.source.file, other / "os/image.png");
-  EXPECT_THAT(sessions::checkInputs(found),
+  EXPECT_THAT(checkInputs(found),
               ElementsAre(finding(FindingKind::kMissing, "parts[0]", "model.ply: no such file")));
 }
 
@@ -90,13 +89,12 @@ TEST(InputCheck, FindsMovedFilesByNameAndHash) {
 class LabelledImage : public ::testing::Test {
  protected:
   LabelledImage() {
-    const ExampleCase example("os");
-    folder_.write("in/sol12.img", example.image.pixels);
+    folder_.write("in/sol12.img", osExample().image.pixels);
     label_ = folder_.write("in/sol12.lbl", labelText("A"));
-    sessions::CaseFiles files = filesOf(exampleFolder() / "os");
+    CaseFiles files = filesOf(exampleFolder() / "os");
     files.image = label_;
-    one_ = sessions::makeCase(files).made;
-    digest_ = sessions::makeCase(filesOf(exampleFolder() / "os")).made.image.pixels_sha256;
+    one_ = makeCase(files).made;
+    digest_ = makeCase(filesOf(exampleFolder() / "os")).made.image.pixels_sha256;
   }
   static std::string labelText(const std::string& product) {
     return "PDS_VERSION_ID = PDS3\r\nRECORD_TYPE = FIXED_LENGTH\r\nRECORD_BYTES = 1024\r\n"
@@ -106,53 +104,40 @@ class LabelledImage : public ::testing::Test {
            "  SAMPLE_TYPE = UNSIGNED_INTEGER\r\n  SAMPLE_BITS = 8\r\nEND_OBJECT = IMAGE\r\n"
            "END\r\n";
   }
-  Session session() const {
-    Session next_session;
-    next_session.cases.push_back(one_);
-    return next_session;
-  }
+  Session session() const { return withCase({}, one_); }
   TemporaryFolder folder_;
   std::filesystem::path label_;
-  sessions::SessionCase one_;
+  SessionCase one_;
   std::string digest_;
 };
 
-TEST_F(LabelledImage, IsTheSamePictureWithWhatItsLabelSays) {
+TEST_F(LabelledImage, IsTheSamePictureWithWhatItsLabelSaysUntilItsPixelsChange) {
   EXPECT_EQ(one_.image.pixels_sha256, digest_);
-  EXPECT_THAT(one_.image.label, Contains(sessions::LabelItem{"PRODUCT_ID", "A"}));
-  EXPECT_THAT(sessions::checkInputs(session()), IsEmpty());
-}
-
-TEST_F(LabelledImage, HasChangedWhenEitherFileHas) {
-  folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(sessions::checkInputs(session()), SizeIs(1));
-  folder_.write("in/sol12.lbl", labelText("A"));
-  EXPECT_THAT(sessions::checkInputs(session()), IsEmpty());
+  EXPECT_THAT(one_.image.label, Contains(LabelItem{"PRODUCT_ID", "A"}));
+  EXPECT_THAT(checkInputs(session()), IsEmpty());
   std::string pixels = folder_.read("in/sol12.img");
   pixels[12345] ^= 1;
   folder_.write("in/sol12.img", pixels);
-  EXPECT_THAT(sessions::checkInputs(session()), SizeIs(1));
-  EXPECT_THAT(
-      folder_.message([&] { (void)sessions::planPack(session(), folder_ / "s.boresight.json"); }),
-      HasSubstr("it differs from the session's file"));
+  EXPECT_THAT(checkInputs(session()), SizeIs(1));
+  EXPECT_THAT(folder_.message([&] { (void)planPack(session(), folder_ / "s.boresight.json"); }),
+              HasSubstr("it differs from the session's file"));
 }
 
 /// Whichever of the two files the session names, the other is named too.
 TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
-  const auto load = [this] { (void)sessions::loadCase(one_); };
-  folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load),
-              HasSubstr("sol12.lbl: its bytes or its pixels sol12.img differ"));
-  EXPECT_THAT(sessions::checkInputs(session())[0].text,
-              HasSubstr("sol12.lbl, or its pixels sol12.img, differs from the session's file"));
-  folder_.write("in/sol12.lbl", labelText("A"));
-  one_.image.source.file = folder_ / "in/sol12.img";
-  EXPECT_EQ(folder_.message(load), "(nothing)");
-  folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load),
-              HasSubstr("sol12.img: its bytes or its label sol12.lbl differ"));
-  EXPECT_THAT(sessions::checkInputs(session())[0].text,
-              HasSubstr("sol12.img, or its label sol12.lbl, differs from the session's file"));
+  const auto load = [this] { (void)loadCase(one_); };
+  const std::string both[][2] = {{"sol12.lbl", "its pixels sol12.img"},
+                                 {"sol12.img", "its label sol12.lbl"}};
+  for (const auto& [named, other] : both) {
+    folder_.write("in/sol12.lbl", labelText("A"));
+    one_.image.source.file = folder_ / ("in/" + named);
+    EXPECT_EQ(folder_.message(load), "(nothing)");
+    folder_.write("in/sol12.lbl", labelText("B"));
+    EXPECT_THAT(folder_.message(load), HasSubstr(named + ": its bytes or " + other + " differ"));
+    EXPECT_THAT(checkInputs(session()),
+                ElementsAre(Field(&Finding::text, HasSubstr(named + ", or " + other +
+                                                            ", differs from the session's file"))));
+  }
 }
 
 TEST_F(LabelledImage, MissingLabel_IsReported) {
@@ -160,23 +145,20 @@ TEST_F(LabelledImage, MissingLabel_IsReported) {
   std::filesystem::remove(label_);
   const std::string wanted =
       "former label is missing: put sol12.lbl (or sol12.xml) back next to it";
-  EXPECT_THAT(folder_.message([this] { (void)sessions::loadCase(one_); }), HasSubstr(wanted));
-  const auto findings = sessions::checkInputs(session());
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_EQ(findings[0].kind, sessions::FindingKind::kUnreadable);
-  EXPECT_THAT(findings[0].text, HasSubstr(wanted));
+  EXPECT_THAT(folder_.message([this] { (void)loadCase(one_); }), HasSubstr(wanted));
+  EXPECT_THAT(checkInputs(session()),
+              ElementsAre(finding(FindingKind::kUnreadable, "image", wanted)));
 }
 
 TEST_F(LabelledImage, IsPackedWithItsPixels) {
-  const auto plan = sessions::planPack(session(), folder_ / "s.boresight.json");
+  const auto plan = planPack(session(), folder_ / "s.boresight.json");
   EXPECT_THAT(plan.notes, IsEmpty());
   writePack(plan, folder_ / "s.zip");
   std::filesystem::remove_all(folder_ / "in");
   unpack(folder_ / "s.zip", folder_ / "there");
-  const Session again =
-      sessions::readSessionFile(folder_ / "there/s.boresight/s.boresight.json").session;
-  EXPECT_THAT(sessions::checkInputs(again), IsEmpty());
-  EXPECT_EQ(sessions::readImage(again.cases[0]->image.source.file).pixels_sha256, digest_);
+  const Session again = readSessionFile(folder_ / "there/s.boresight/s.boresight.json").session;
+  EXPECT_THAT(checkInputs(again), IsEmpty());
+  EXPECT_EQ(readImage(again.cases[0]->image.source.file).pixels_sha256, digest_);
 }
 
 }  // namespace

@@ -16,38 +16,35 @@
 namespace boresight::test {
 namespace {
 
-using sessions::InputSheet;
-using sessions::SessionCase;
+using namespace sessions;
 
-SessionCase exampleOs() { return sessions::makeCase(filesOf(exampleFolder() / "os")).made; }
-
-std::vector<std::string> codes(const std::vector<sessions::RedFlag>& flags) {
+std::vector<std::string> codes(const std::vector<RedFlag>& flags) {
   std::vector<std::string> all;
-  for (const sessions::RedFlag& flag : flags) all.push_back(flag.code);
+  for (const RedFlag& flag : flags) all.push_back(flag.code);
   return all;
 }
 
-const sessions::LoadedCase& loadedOs() {
-  static const auto loaded = sessions::loadCase(exampleOs());
+const LoadedCase& loadedOs() {
+  static const auto loaded = loadCase(makeCase(filesOf(exampleFolder() / "os")).made);
   return *loaded;
 }
 
 std::vector<std::string> flagsWith(const std::function<void(SessionCase&)>& change) {
   SessionCase session_case = loadedOs().source;
   change(session_case);
-  return codes(sessions::inputSheet(*sessions::reloadCase(loadedOs(), session_case)).flags);
+  return codes(inputSheet(*reloadCase(loadedOs(), session_case)).flags);
 }
 
 /// "" when there is none.
 std::string lineOf(const InputSheet& sheet, const std::string& label) {
-  for (const sessions::SheetLine& line : sheet.lines)
+  for (const SheetLine& line : sheet.lines)
     if (line.label == label) return line.value;
   return "";
 }
 
 TEST(InputSheet, MeasuresTheExample) {
   const SessionCase& session_case = loadedOs().source;
-  const InputSheet sheet = sessions::inputSheet(loadedOs());
+  const InputSheet sheet = inputSheet(loadedOs());
   // 4.8 % of this image is the bright background.
   EXPECT_THAT(codes(sheet.flags), ElementsAre("image_saturated"));
   // Independent figures: a pinhole of the same focal length, and the seed's own translation.
@@ -60,7 +57,12 @@ TEST(InputSheet, MeasuresTheExample) {
   const double width_mm = std::stod(station.substr(station.find("the view is ") + 12));
   EXPECT_NEAR(width_mm, 2e3 * distance_m * std::tan(0.5 * pinhole_deg * kDegree_rad),
               0.1 * width_mm);
-  for (const sessions::SheetLine& line : sheet.lines) EXPECT_FALSE(line.value.empty());
+  for (const SheetLine& line : sheet.lines) EXPECT_FALSE(line.value.empty());
+  EXPECT_EQ(lineOf(sheet, "scale, one sigma"), "0.02 %, assumed");
+  EXPECT_THAT(lineOf(sheet, "calibration, one sigma"), StartsWith("0.02 % and 0.25 px, assumed"));
+  SessionCase stated = session_case;
+  stated.mesh_scale_sigma = 0.001;
+  EXPECT_EQ(lineOf(inputSheet(*reloadCase(loadedOs(), stated)), "scale, one sigma"), "0.1 %");
 }
 
 TEST(InputSheet, FlagsWhatIsProbablyWrong) {
@@ -86,7 +88,7 @@ TEST(InputSheet, FlagsATruthWhoseSigmaExceedsTheRequirement) {
     return flagsWith([sigma_m](SessionCase& session_case) {
       Matrix6d covariance = 1e-12 * Matrix6d::Identity();
       covariance.bottomRightCorner<3, 3>() = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
-      sessions::setTruth(session_case, session_case.camera_from_station_seed, covariance);
+      setTruth(session_case, session_case.camera_from_station_seed, covariance);
     });
   };
   EXPECT_THAT(with_sigma(1e-5), Not(Contains("truth_uncertain")));
@@ -95,12 +97,12 @@ TEST(InputSheet, FlagsATruthWhoseSigmaExceedsTheRequirement) {
 
 /// The example with its pixels changed, since a file with other pixels would be refused.
 InputSheet sheetWithPixels(int (*change)(int gray)) {
-  sessions::LoadedCase changed;
+  LoadedCase changed;
   changed.source = loadedOs().source;
   changed.scene = loadedOs().scene;
   changed.image = loadedOs().image;
   for (std::uint8_t& gray : changed.image.pixels) gray = static_cast<std::uint8_t>(change(gray));
-  return sessions::inputSheet(changed);
+  return inputSheet(changed);
 }
 
 TEST(InputSheet, ImageThatCannotCarryAPose_IsFlagged) {
@@ -114,13 +116,13 @@ TEST(InputSheet, ImageThatCannotCarryAPose_IsFlagged) {
 }
 
 TEST(InputSheet, TellsTheInsideOfASurface) {
-  const sessions::SceneMesh cube = boxMesh({1.0, 1.0, 1.0});
+  const SceneMesh cube = boxMesh({1.0, 1.0, 1.0});
   Random random = randomFor("cube");
   for (int i = 0; i < 500; ++i) {
     const Eigen::Vector3d point = randomVector(random, 2.0);
-    EXPECT_EQ(sessions::isInside(cube.view(), point), point.cwiseAbs().maxCoeff() < 1.0);
+    EXPECT_EQ(isInside(cube.view(), point), point.cwiseAbs().maxCoeff() < 1.0);
   }
-  EXPECT_FALSE(sessions::isInside(osExample().scene.view(), {0.0, 0.0, 10.0}));
+  EXPECT_FALSE(isInside(osExample().scene.view(), {0.0, 0.0, 10.0}));
 }
 
 /// An image as a Bayer sensor sees a scene of smooth colours.
@@ -137,25 +139,14 @@ std::vector<std::uint8_t> mosaic(int width, int height) {
 
 TEST(InputSheet, KnowsAMosaicFromNoiseAndPictures) {
   const std::vector<std::uint8_t> raw = mosaic(200, 150);
-  EXPECT_TRUE(sessions::looksLikeMosaic({raw.data(), 200, 150, 200}));
+  EXPECT_TRUE(looksLikeMosaic({raw.data(), 200, 150, 200}));
   Random random = randomFor("noise");
   std::vector<std::uint8_t> noise(200 * 150);
   for (std::uint8_t& pixel : noise) pixel = static_cast<std::uint8_t>(random.below(256));
-  EXPECT_FALSE(sessions::looksLikeMosaic({noise.data(), 200, 150, 200}));
-  EXPECT_FALSE(sessions::looksLikeMosaic({noise.data(), 2, 2, 2}));
-  const sessions::GrayImage picture = sessions::readImage(exampleFolder() / "bc/image.png");
-  EXPECT_FALSE(sessions::looksLikeMosaic(picture.view()));
-}
-
-TEST(InputSheet, SaysHowWellMeshAndCameraAreKnownAndWhetherThatIsAssumed) {
-  const InputSheet sheet = sessions::inputSheet(loadedOs());
-  EXPECT_EQ(lineOf(sheet, "scale, one sigma"), "0.02 %, assumed");
-  EXPECT_THAT(lineOf(sheet, "calibration, one sigma"), StartsWith("0.02 % and 0.25 px, assumed"));
-  SessionCase stated = loadedOs().source;
-  stated.mesh_scale_sigma = 0.001;
-  EXPECT_EQ(
-      lineOf(sessions::inputSheet(*sessions::reloadCase(loadedOs(), stated)), "scale, one sigma"),
-      "0.1 %");
+  EXPECT_FALSE(looksLikeMosaic({noise.data(), 200, 150, 200}));
+  EXPECT_FALSE(looksLikeMosaic({noise.data(), 2, 2, 2}));
+  const GrayImage picture = readImage(exampleFolder() / "bc/image.png");
+  EXPECT_FALSE(looksLikeMosaic(picture.view()));
 }
 
 TEST(InputSheet, FlagsSixteenBitsWithoutARule) {
@@ -164,12 +155,10 @@ TEST(InputSheet, FlagsSixteenBitsWithoutARule) {
   for (int i = 0; i < 10000; ++i)
     image.at<std::uint16_t>(i / 100, i % 100) = static_cast<std::uint16_t>(i / 3);
   cv::imwrite((folder / "16.png").string(), image);
-  EXPECT_THAT(codes(sessions::imageSheet(sessions::readImage(folder / "16.png")).flags),
-              Contains("image_bit_depth"));
-  sessions::ImageReadOptions stated;
+  EXPECT_THAT(codes(imageSheet(readImage(folder / "16.png")).flags), Contains("image_bit_depth"));
+  ImageReadOptions stated;
   stated.bit_depth = 12;
-  EXPECT_THAT(codes(sessions::imageSheet(sessions::readImage(folder / "16.png", stated)).flags),
-              IsEmpty());
+  EXPECT_THAT(codes(imageSheet(readImage(folder / "16.png", stated)).flags), IsEmpty());
 }
 
 TEST(ReadImage, TakesAGivenTable) {
@@ -177,14 +166,14 @@ TEST(ReadImage, TakesAGivenTable) {
   cv::Mat image(1, 4, CV_16UC1);
   for (int i = 0; i < 4; ++i) image.at<std::uint16_t>(0, i) = static_cast<std::uint16_t>(i);
   cv::imwrite((folder / "t.png").string(), image);
-  sessions::ImageReadOptions options;
+  ImageReadOptions options;
   options.bit_depth = 2;
   options.table = {9, 7, 200, 3};
-  const sessions::GrayImage read = sessions::readImage(folder / "t.png", options);
+  const GrayImage read = readImage(folder / "t.png", options);
   EXPECT_EQ(read.pixels, options.table);
   EXPECT_EQ(read.rule, "by a given table of 4 values");
   options.table.pop_back();
-  EXPECT_EQ(folder.message([&] { (void)sessions::readImage(folder / "t.png", options); }),
+  EXPECT_EQ(folder.message([&] { (void)readImage(folder / "t.png", options); }),
             "t.png: table: has 3 entries, but 2 bits need 4");
 }
 

@@ -80,7 +80,8 @@ TEST_F(LabelAgreement, AnotherCameraIsFlaggedWithItsDifference) {
   CahvModel moved = model_;
   moved.c_m.y() += 0.02;
   take(cameraOf(moved));
-  EXPECT_THAT(flags(), ElementsAre(HasSubstr("in ROVER_FRAME (3) it differs by 20.0 mm and 0.00 deg")));
+  EXPECT_THAT(flags(),
+              ElementsAre(HasSubstr("in ROVER_FRAME (3) it differs by 20.0 mm and 0.00 deg")));
   label_.camera.reset();
   EXPECT_THAT(flags(), IsEmpty());
 }

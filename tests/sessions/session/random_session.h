@@ -99,34 +99,29 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   session_case.image.width = 1 + static_cast<int>(random.below(4000));
   session_case.image.height = 1 + static_cast<int>(random.below(4000));
   session_case.image.pixels_sha256 = randomSha256(random);
-  if (coin(random)) session_case.image.eight_bit.bit_depth = 1 + static_cast<int>(random.below(8));
-  if (coin(random))
-    session_case.image.eight_bit.bayer = static_cast<sessions::BayerPattern>(random.below(4));
-  if (session_case.image.eight_bit.bit_depth && coin(random))
-    for (int i = 0; i < 1 << *session_case.image.eight_bit.bit_depth; ++i)
-      session_case.image.eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
-  if (session_case.image.eight_bit.bit_depth && session_case.image.eight_bit.table.empty() &&
-      coin(random))
-    session_case.image.eight_bit.levels =
-        sessions::GrayLevels{0, (1 << *session_case.image.eight_bit.bit_depth) - 1};
+  auto& eight_bit = session_case.image.eight_bit;
+  if (coin(random)) eight_bit.bit_depth = 1 + static_cast<int>(random.below(8));
+  if (coin(random)) eight_bit.bayer = static_cast<sessions::BayerPattern>(random.below(4));
+  if (eight_bit.bit_depth && coin(random))
+    for (int i = 0; i < 1 << *eight_bit.bit_depth; ++i)
+      eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
+  if (eight_bit.bit_depth && eight_bit.table.empty() && coin(random))
+    eight_bit.levels = sessions::GrayLevels{0, (1 << *eight_bit.bit_depth) - 1};
   session_case.camera = randomCamera(random, static_cast<CameraModel>(random.below(3)));
   for (std::uint32_t i = 1u + random.below(3); i > 0; --i) {
-    sessions::MeshInput part;
-    part.source.mesh = randomPath(random, ".ply");
-    part.source.mesh_unit = coin(random) ? "m" : "mm";
-    if (coin(random)) part.source.name = "part \"q\"";
-    if (coin(random)) part.source.frame_from_mesh = randomPose(random);
-    part.source.normal_threshold_rad = random.uniform(0.1, 1.0);
-    part.source.depth_threshold_m = random.uniform(0.001, 0.1);
-    if (i > 1) {
-      part.source.state.role = static_cast<sessions::PartRole>(random.below(3));
-      part.source.state.present = coin(random);
-      if (part.source.state.role != sessions::PartRole::kMatched && coin(random))
-        part.source.frame = sessions::kCameraFrame;
-    }
-    if (coin(random)) part.source.albedo = random.uniform(0.0, 1.0);
+    sessions::MeshInput& part = session_case.parts.emplace_back();
+    auto& source = part.source;
+    source.mesh = randomPath(random, ".ply");
+    source.mesh_unit = coin(random) ? "m" : "mm";
+    if (coin(random)) source.name = "part \"q\"";
+    if (coin(random)) source.frame_from_mesh = randomPose(random);
+    source.normal_threshold_rad = random.uniform(0.1, 1.0);
+    source.depth_threshold_m = random.uniform(0.001, 0.1);
+    if (i > 1) source.state = {static_cast<sessions::PartRole>(random.below(3)), coin(random)};
+    if (source.state.role != sessions::PartRole::kMatched && coin(random))
+      source.frame = sessions::kCameraFrame;
+    if (coin(random)) source.albedo = random.uniform(0.0, 1.0);
     part.sha256 = randomSha256(random);
-    session_case.parts.push_back(part);
   }
   if (coin(random)) session_case.feature_size_m = random.uniform(0.001, 0.1);
   session_case.camera_from_station_seed = randomPose(random);
@@ -142,11 +137,9 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   if (coin(random)) session_case.onboard_record = randomInput(random, ".whsr");
   if (coin(random)) session_case.rig = sessions::Rig{"rig", randomPose(random)};
   if (coin(random)) session_case.tags = {"low sun", "dusty"};
-  if (coin(random)) {
-    session_case.requirement = sessions::Requirement();
-    session_case.requirement->normal_mm = random.uniform(0.1, 2.0);
-    if (coin(random)) session_case.requirement->projection_px = random.uniform(0.1, 2.0);
-  }
+  if (coin(random)) session_case.requirement.emplace().normal_mm = random.uniform(0.1, 2.0);
+  if (session_case.requirement && coin(random))
+    session_case.requirement->projection_px = random.uniform(0.1, 2.0);
   if (coin(random)) session_case.camera_from_end_effector = randomPose(random);
   addRandomFrames(random, session_case);
   if (coin(random)) session_case.landmarks = randomPath(random, ".json");
@@ -156,7 +149,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
 inline sessions::Annotation randomAnnotation(Random& random) {
   sessions::Annotation annotation;
   for (std::uint32_t i = 1u + random.below(6); i > 0; --i) {
-    sessions::PointPair point;
+    sessions::PointPair& point = annotation.points.emplace_back();
     point.id = "p" + std::to_string(i);
     point.point_in_station_m = randomVector(random, 0.3);
     if (coin(random))
@@ -165,13 +158,11 @@ inline sessions::Annotation randomAnnotation(Random& random) {
     point.enabled = coin(random);
     point.locked = coin(random);
     if (coin(random)) point.comment = "at the\nsecond \"screw\" \xE2\x80\x93 unsure";
-    annotation.points.push_back(point);
   }
   if (coin(random)) {
-    sessions::LinePair line;
+    sessions::LinePair& line = annotation.lines.emplace_back();
     line.id = "l1";
     line.edge = sessions::ModelEdge{randomVector(random, 0.3), randomVector(random, 0.3)};
-    annotation.lines.push_back(line);
   }
   return annotation;
 }
@@ -279,6 +270,7 @@ inline sessions::Session randomEdit(Random& random, const sessions::Session& ses
     return withCase(session, randomCase(random, "new " + std::to_string(random.below(1000000))));
   const sessions::SessionCase& session_case =
       *session.cases[indexBelow(random, session.cases.size())];
+  sessions::Session next = session;
   switch (random.below(7)) {
     case 5:
       return withRounds(session, session_case.id,
@@ -289,22 +281,17 @@ inline sessions::Session randomEdit(Random& random, const sessions::Session& ses
       return withAnnotations(session, session_case.id, randomAnnotation(random));
     case 2:
       return withOptions(session, "default", randomOptions(random));
-    case 3: {
-      sessions::Session next = session;
+    case 3:
       next.decisions.push_back(
           {session_case.id, sessions::Verdict::kRejected, "Ada", "no", "2026-01-31T23:59:59Z", ""});
       return next;
-    }
-    case 4: {
-      sessions::Session next = session;
+    case 4:
       std::swap(next.cases.front(), next.cases.back());
       return next;
-    }
-    default: {
-      sessions::SessionCase moved = session_case;
-      moved.camera_from_station_seed = randomPose(random);
-      return withCase(session, moved);
-    }
+    default:
+      return withChanged(session, session_case.id, [&random](sessions::SessionCase& moved) {
+        moved.camera_from_station_seed = randomPose(random);
+      });
   }
 }
 

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sessions/session/example_session.h"
+
 namespace boresight::sessions {
 namespace {
+
+using test::shifted;
 
 SessionCase cameraIn(const std::string& frame, double x_m) {
   SessionCase session_case;
@@ -24,20 +28,9 @@ void expectLink(const SessionCase& one, const SessionCase& other, double x_m,
 
 TEST(LinkOfFrames, IsBetweenCamerasInOneNamedFrame) {
   expectLink(cameraIn("ROVER_FRAME", 0.0), cameraIn("ROVER_FRAME", 0.2), -0.2, "ROVER_FRAME");
-}
-
-TEST(LinkOfFrames, IsNothingAcrossFramesOrWithoutAName) {
   EXPECT_FALSE(linkOfFrames(cameraIn("ROVER_FRAME", 0.0), cameraIn("SITE_FRAME", 0.2)));
   EXPECT_FALSE(linkOfFrames(cameraIn("", 0.0), cameraIn("", 0.2)));
   EXPECT_FALSE(linkOfFrames(SessionCase(), cameraIn("ROVER_FRAME", 0.2)));
-}
-
-FrameTransform shifted(const FrameName& target, const FrameName& source, double x_m) {
-  FrameTransform transform;
-  transform.target = target;
-  transform.source = source;
-  transform.target_from_source.translation_m = {x_m, 0.0, 0.0};
-  return transform;
 }
 
 /// A camera on an arm: where its wrist is in the rover's frame.
@@ -51,14 +44,11 @@ SessionCase onArm(double wrist_in_rover_m) {
 }
 
 /// The wrist moves with the camera: the rover's frame, beyond it, joins the two images.
-TEST(LinkOfFrames, IsByTheFrameFarthestFromTheCamera) {
-  expectLink(onArm(0.0), onArm(0.3), -0.3, "ROVER");
-}
-
-/// A part is placed in the station's frame, which the telemetry joins with the rover's.
-TEST(LinkOfFrames, DoesNotPassTheStation) {
+TEST(LinkOfFrames, IsByTheFrameFarthestFromTheCameraWithoutPassingTheStation) {
   SessionCase first = onArm(0.0);
   SessionCase second = onArm(0.3);
+  expectLink(first, second, -0.3, "ROVER");
+  // A part is placed in the station's frame, which the telemetry joins with the rover's.
   double station_in_rover_m = 0.7;
   for (SessionCase* each : {&first, &second}) {
     each->frames.push_back(shifted({"ROVER", {}}, kStationFrame, station_in_rover_m));

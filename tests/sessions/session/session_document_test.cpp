@@ -21,10 +21,7 @@
 namespace boresight::test {
 namespace {
 
-using sessions::Access;
-using sessions::Session;
-using sessions::SessionDocument;
-using sessions::SessionHistory;
+using namespace sessions;
 
 Session sessionOf(const std::string& name) {
   Random random = randomFor(name);
@@ -45,11 +42,9 @@ struct SessionDocumentTest : testing::Test {
   const Session first = sessionOf("first");
   const std::filesystem::path file = folder / "s.json";
 
-  void write() const { SessionDocument::create(file, first); }
-
   /// Writes it and leaves a document of it that is killed after `edits` edits, unsaved.
   void leaveUnsaved(int edits) const {
-    write();
+    SessionDocument::create(file, first);
     const std::string said = inChild([&]() -> std::string {
       SessionDocument document = SessionDocument::open(file);
       for (int i = 1; i <= edits; ++i)
@@ -64,11 +59,11 @@ struct SessionDocumentTest : testing::Test {
 TEST_F(SessionDocumentTest, DiscardedChanges_AreNotRecovered) {
   {
     SessionDocument document = SessionDocument::create(file, first);
-    document.apply(edited(first, 1), "Edit 1");
-    document.discardChanges();
-    EXPECT_FALSE(document.modified());
-    document.apply(edited(first, 2), "Edit 2");
-    document.discardChanges();
+    for (const int number : {1, 2}) {
+      document.apply(edited(first, number), "Edit");
+      document.discardChanges();
+      EXPECT_FALSE(document.modified());
+    }
   }
   const SessionDocument again = SessionDocument::open(file);
   EXPECT_FALSE(again.recovery().has_value());
@@ -95,10 +90,10 @@ TEST_F(SessionDocumentTest, Save_WritesTheEditsAndRemovesTheJournal) {
 
 TEST_F(SessionDocumentTest, IsNotSavedOverAnInputAndMaySaveOverASession) {
   Random random = randomFor("inputs");
-  sessions::SessionCase session_case = randomCase(random, "a");
+  SessionCase session_case = randomCase(random, "a");
   session_case.image.source.file = folder.write("image.png", "pixels");
   SessionDocument document = SessionDocument::create(file, withCase({}, session_case));
-  EXPECT_THROW(document.saveAs(folder / "image.png"), sessions::OverwriteError);
+  EXPECT_THROW(document.saveAs(folder / "image.png"), OverwriteError);
   EXPECT_EQ(folder.read("image.png"), "pixels");
   document.saveAs(folder / "t.json");
   document.saveAs(file);
@@ -170,23 +165,23 @@ TEST_F(SessionDocumentTest, SetsADamagedJournalAside) {
   EXPECT_TRUE(SessionDocument::open(file).recovery()->session == edited(first, 8));
 }
 
-TEST_F(SessionDocumentTest, SetsAJournalOfAnotherStateAside) {
-  leaveUnsaved(1);
-  sessions::writeSessionFile(file, sessionOf("another"));
+TEST_F(SessionDocumentTest, SetsAJournalOfAnotherStateAsideUnlessItsEditsWereSaved) {
+  leaveUnsaved(3);
+  const std::string journal = folder.read("s.journal");
+  {
+    // As if the program had ended between writing the file and removing the journal.
+    writeSessionFile(file, edited(first, 3));
+    const SessionDocument document = SessionDocument::open(file);
+    EXPECT_FALSE(document.recovery());
+    EXPECT_THAT(document.notices(), testing::Each(Not(HasSubstr("journal"))));
+    EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+  }
+  folder.write("s.journal", journal);
+  writeSessionFile(file, sessionOf("another"));
   const SessionDocument document = SessionDocument::open(file);
   EXPECT_FALSE(document.recovery());
   EXPECT_THAT(document.notices(), Contains(HasSubstr("belongs to another state")));
   EXPECT_TRUE(std::filesystem::exists(folder / "s.journal.aside-1"));
-}
-
-TEST_F(SessionDocumentTest, KnowsAJournalWhoseEditsWereSaved) {
-  leaveUnsaved(3);
-  // As if the program had ended between writing the file and removing the journal.
-  sessions::writeSessionFile(file, edited(first, 3));
-  const SessionDocument document = SessionDocument::open(file);
-  EXPECT_FALSE(document.recovery());
-  EXPECT_THAT(document.notices(), testing::Each(Not(HasSubstr("journal"))));
-  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
 }
 
 TEST_F(SessionDocumentTest, TheSecondToOpenItOnlyReads) {
@@ -216,7 +211,7 @@ TEST_F(SessionDocumentTest, RefusesEditsThatCouldNotBeOpenedAgain) {
   Session option = first;
   option.options.emplace_back("loop.max_iterations", std::int64_t{0});
   EXPECT_THAT(folder.message([&] { document.apply(option, "x"); }), HasSubstr("max_iterations"));
-  sessions::SessionCase nan = *first.cases[0];
+  SessionCase nan = *first.cases[0];
   nan.camera_from_station_seed.translation_m.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(document.apply(withCase(first, nan), "x"), std::logic_error);
   EXPECT_TRUE(document.session() == first);
@@ -241,14 +236,13 @@ TEST_F(SessionDocumentTest, SaysWhatCannotBeOpened) {
             "e.json: the file is empty");
   EXPECT_EQ(folder.message([&] { SessionDocument::open(folder.path()); }),
             folder.path().string() + ": is a folder, not a file");
-  std::filesystem::remove(folder / "e.json");
-  EXPECT_EQ(folder.fileCount(), 0u);  // no lock stays behind
+  EXPECT_EQ(folder.fileCount(), 1u) << "no lock stays behind";
 }
 
 TEST_F(SessionDocumentTest, OpensInAReadOnlyFolderToBeRead) {
-  write();
+  SessionDocument::create(file, first);
   ::chmod(folder.path().c_str(), 0555);
-  ::chmod((file).c_str(), 0444);
+  ::chmod(file.c_str(), 0444);
   const std::string said = inChild([&] {
     stopBeingRoot();
     SessionDocument document = SessionDocument::open(file);
@@ -263,7 +257,7 @@ TEST_F(SessionDocumentTest, OpensInAReadOnlyFolderToBeRead) {
 }
 
 TEST_F(SessionDocumentTest, AFullDiskLeavesFileAndSessionAsTheyWere) {
-  write();
+  SessionDocument::create(file, first);
   const std::string before = folder.read("s.json");
   const std::string said = inChild([&] {
     SessionDocument document = SessionDocument::open(file);
@@ -282,26 +276,24 @@ TEST_F(SessionDocumentTest, AFullDiskLeavesFileAndSessionAsTheyWere) {
   EXPECT_TRUE(document.recovery()->session == edited(first, 1));
 }
 
-const sessions::Journal kJournal = {
+const Journal kJournal = {
     std::string(64, '0'), "2026-01-31T23:59:59Z", {"Edit \"1\"\nsecond line", "Edit 2"}};
 
 std::string writeJournal(const TemporaryFolder& folder, const Session& session) {
-  sessions::writeJournal(folder / "j", kJournal, sessions::sessionText(session, folder / "j"));
+  writeJournal(folder / "j", kJournal, sessionText(session, folder / "j"));
   return folder.read("j");
 }
 
 TEST(Journal, ReadsBackWhatWasWritten) {
   Random random = randomFor("Journal");
   const TemporaryFolder folder;
-  for (int i = 0; i < 5; ++i) {
-    const Session session = randomSession(random);
-    writeJournal(folder, session);
-    const sessions::Recovery read = sessions::readJournal(folder / "j");
-    EXPECT_EQ(read.base_sha256, kJournal.base_sha256);
-    EXPECT_EQ(read.time, kJournal.time);
-    EXPECT_EQ(read.edits, kJournal.edits);
-    EXPECT_TRUE(read.session == session);
-  }
+  const Session session = randomSession(random);
+  writeJournal(folder, session);
+  const Recovery read = readJournal(folder / "j");
+  EXPECT_EQ(read.base_sha256, kJournal.base_sha256);
+  EXPECT_EQ(read.time, kJournal.time);
+  EXPECT_EQ(read.edits, kJournal.edits);
+  EXPECT_TRUE(read.session == session) << "as in ReadsBackWhatItWrote of the session file";
 }
 
 TEST(Journal, ACutOneIsNotUsed) {
@@ -309,9 +301,9 @@ TEST(Journal, ACutOneIsNotUsed) {
   const std::string whole = writeJournal(folder, {});
   for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
     const auto cut = folder.write("cut", whole.substr(0, length));
-    EXPECT_THROW((void)sessions::readJournal(cut), sessions::InputError) << length;
+    EXPECT_THROW((void)readJournal(cut), InputError) << length;
   }
-  EXPECT_THAT(folder.message([&] { (void)sessions::readJournal(folder.write("j", "{}\n")); }),
+  EXPECT_THAT(folder.message([&] { (void)readJournal(folder.write("j", "{}\n")); }),
               HasSubstr("j: format: missing"));
 }
 
@@ -330,7 +322,6 @@ TEST(SessionHistory, UndoesAndRedoesEveryStep) {
     session.view = {};
     return session;
   };
-  const Session& end = document.session();
   const auto expectEdits = [&](std::size_t i) {
     ASSERT_TRUE(withoutRuns(states[i]) == withoutRuns(document.session())) << i;
   };
@@ -349,7 +340,6 @@ TEST(SessionHistory, UndoesAndRedoesEveryStep) {
     expectEdits(i);
   }
   EXPECT_FALSE(history.canRedo());
-  EXPECT_TRUE(withoutRuns(end) == withoutRuns(states.back()));
 }
 
 TEST(SessionHistory, ANewEditForgetsWhatWasUndone) {
@@ -368,24 +358,7 @@ TEST(SessionHistory, ANewEditForgetsWhatWasUndone) {
   EXPECT_EQ(document.session().cases.size(), 2u);
 }
 
-TEST(SessionHistory, RunsAndTheViewAreNotUndone) {
-  Random random = randomFor("runs");
-  const TemporaryFolder folder;
-  SessionDocument document =
-      SessionDocument::create(folder / "s.json", withCase({}, randomCase(random, "a")));
-  SessionHistory history(document);
-  history.perform(withAnnotations(document.session(), "a", randomAnnotation(random)), "Mark");
-  Session ran = document.session();
-  ran.runs.push_back(randomRun(random, "a"));
-  ran.view.case_id = "a";
-  document.apply(ran, "Run a");
-  history.undo();
-  EXPECT_TRUE(document.session().annotations.empty());
-  EXPECT_EQ(document.session().runs.size(), 1u);
-  EXPECT_EQ(document.session().view.case_id, "a");
-}
-
-TEST(SessionHistory, ARemovedCaseComesBackWithItsRun) {
+TEST(SessionHistory, ARemovedCaseComesBackWithItsRunAndLaterRunsAndTheViewStay) {
   Random random = randomFor("removed");
   const TemporaryFolder folder;
   Session session = withCase(withCase({}, randomCase(random, "a")), randomCase(random, "b"));
@@ -394,12 +367,14 @@ TEST(SessionHistory, ARemovedCaseComesBackWithItsRun) {
   SessionHistory history(document);
   history.perform(withoutCase(document.session(), "b"), "Remove b");
   Session again = document.session();
-  again.runs[0].digest = randomSha256(random);
+  again.runs.push_back(randomRun(random, "a"));
+  again.view.case_id = "a";
   document.apply(again, "Run a");
   history.undo();
   ASSERT_NE(document.session().lastRunOf("b"), nullptr);
   EXPECT_EQ(*document.session().lastRunOf("b"), session.runs[1]);
-  EXPECT_EQ(*document.session().lastRunOf("a"), again.runs[0]) << "the later run stays";
+  EXPECT_EQ(*document.session().lastRunOf("a"), again.runs.back());
+  EXPECT_EQ(document.session().view.case_id, "a");
   history.redo();
   EXPECT_EQ(document.session().lastRunOf("b"), nullptr);
 }
@@ -408,12 +383,10 @@ TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
   Random random = randomFor("unwritten");
   const TemporaryFolder folder;
   { SessionDocument::create(folder / "s.json", withCase({}, randomCase(random, "a"))); }
-  SessionDocument document = SessionDocument::open(folder / "s.json", sessions::Access::kReadOnly);
+  SessionDocument document = SessionDocument::open(folder / "s.json", Access::kReadOnly);
   SessionHistory history(document);
-  EXPECT_NE(folder.message([&] {
-    history.perform(withAnnotations(document.session(), "a", randomAnnotation(random)), "Mark");
-  }),
-            "(nothing)");
+  const Session next = withAnnotations(document.session(), "a", randomAnnotation(random));
+  EXPECT_NE(folder.message([&] { history.perform(next, "Mark"); }), "(nothing)");
   EXPECT_FALSE(history.canUndo());
   EXPECT_TRUE(document.session().annotations.empty());
 }
@@ -473,8 +446,7 @@ TEST(Kill, NothingConfirmedIsLost) {
     // The last edit may be on the disk although it was not confirmed any more.
     ASSERT_GE(session.view.iteration, confirmed) << "round " << round;
     ASSERT_LE(session.view.iteration, confirmed + 1) << "round " << round;
-    for (const std::string& notice : document.notices())
-      EXPECT_EQ(notice.find("set aside"), std::string::npos) << notice;
+    EXPECT_THAT(document.notices(), testing::Each(Not(HasSubstr("set aside"))));
   }
   EXPECT_GT(confirmed, 50);
 }

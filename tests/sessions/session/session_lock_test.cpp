@@ -26,8 +26,8 @@ TEST(FileLock, IsHeldByOneAndSaysByWhom) {
     ASSERT_TRUE(second.other());
     EXPECT_EQ(second.other()->process, ::getpid());
     EXPECT_FALSE(sessions::hasEnded(*second.other()));
-    EXPECT_THAT(second.other()->text(), HasSubstr("process " + std::to_string(::getpid())));
     const std::string pid = std::to_string(::getpid());
+    EXPECT_THAT(second.other()->text(), HasSubstr("process " + pid));
     EXPECT_EQ(inChild([&] {
                 const FileLock third(folder / "s.lock");
                 return third.held() ? "held" : std::to_string(third.other()->process);
@@ -40,12 +40,11 @@ TEST(FileLock, IsHeldByOneAndSaysByWhom) {
 
 TEST(FileLock, IsTakenOverFromAKilledProgram) {
   const TemporaryFolder folder;
-  const std::string ended = inChild([&]() -> std::string {
+  (void)inChild([&]() -> std::string {
     const FileLock lock(folder / "s.lock");
     ::kill(::getpid(), SIGKILL);
     return "";
   });
-  EXPECT_EQ(ended, "the child did not end by itself");
   ASSERT_EQ(folder.fileCount(), 1u);
   const FileLock lock(folder / "s.lock");
   EXPECT_TRUE(lock.held());
@@ -65,17 +64,13 @@ TEST(FileLock, KnowsAProcessByItsStartToo) {
   EXPECT_FALSE(sessions::hasEnded(holder));
 }
 
-TEST(FileLock, ARubbishLockFileIsTaken) {
+TEST(FileLock, TakesARubbishFileAndSaysWhenItCannotBeWritten) {
   const TemporaryFolder folder;
   for (const char* text : {"", "{", "{}", "[1]", R"({"process": "x"})"}) {
     folder.write("s.lock", text);
     EXPECT_FALSE(sessions::readLockFile(folder / "s.lock")) << text;
     EXPECT_TRUE(FileLock(folder / "s.lock").held()) << text;
   }
-}
-
-TEST(FileLock, SaysWhenItCannotBeWritten) {
-  const TemporaryFolder folder;
   EXPECT_THAT(folder.message([&] { FileLock lock(folder / "none/s.lock"); }),
               HasSubstr("cannot write none/s.lock: No such file"));
 }

@@ -19,19 +19,29 @@
 namespace boresight::test {
 namespace {
 
-using sessions::Session;
+using namespace sessions;
 
-sessions::SessionCase firstExample() {
-  return *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+const std::filesystem::path kDataset = exampleFolder() / "dataset.json";
+
+SessionCase firstExample() { return *makeSession(kDataset).cases[0]; }
+
+/// The session of a copy of the example whose data set is changed.
+template <class Change>
+Session sessionOfChanged(const TemporaryFolder& folder, Change&& change) {
+  const std::filesystem::path file = folder / "stations/dataset.json";
+  auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
+  change(json);
+  folder.write("stations/dataset.json", json.dump());
+  return makeSession(file);
 }
 
 TEST(SessionMaker, SaysWhichFileIsWrong) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
-  const auto message = [&](void (*spoil)(sessions::CaseFiles&)) {
-    sessions::CaseFiles files = filesOf(stations / "os");
+  const auto message = [&](void (*spoil)(CaseFiles&)) {
+    CaseFiles files = filesOf(stations / "os");
     spoil(files);
-    return folder.message([&] { (void)sessions::makeCase(files); });
+    return folder.message([&] { (void)makeCase(files); });
   };
   EXPECT_EQ(message([](auto&) {}), "(nothing)");
   EXPECT_THAT(message([](auto& f) { f.image = "none.png"; }), HasSubstr("none.png: no such file"));
@@ -46,76 +56,78 @@ TEST(SessionMaker, SaysWhichFileIsWrong) {
   EXPECT_THAT(message([](auto& f) { f.ignore = f.seed; }), HasSubstr("os/seed.json: "));
   EXPECT_THAT(message([](auto& f) { f.truth = "gone.json"; }),
               HasSubstr("gone.json: no such file"));
-  EXPECT_THAT(
-      folder.message([&] { (void)sessions::makeSession(stations / "dataset.json", {"x"}); }),
-      HasSubstr("dataset.json: cases: there is no case 'x'"));
+  EXPECT_THAT(folder.message([&] { (void)makeSession(stations / "dataset.json", {"x"}); }),
+              HasSubstr("dataset.json: cases: there is no case 'x'"));
 }
 
 TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
-  const Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+  const Session session = makeSession(kDataset);
   ASSERT_EQ(session.cases.size(), 2u);
+  // The digests of the shipped cases before parts had names, frames and states.
+  EXPECT_EQ(inputsDigest(*session.cases[0]),
+            "4e00d12e9b2e345ef840c3ba016df34a73b1de8386f343fba095c52f99a33618");
+  EXPECT_EQ(inputsDigest(*session.cases[1]),
+            "2f2504644b1536f88ea047a97a78a2bba37f5d36a46fc31504ab216ca1e7c1aa");
   for (const auto& session_case : session.cases) {
-    sessions::CaseFiles files = filesOf(exampleFolder() / session_case->station);
+    CaseFiles files = filesOf(exampleFolder() / session_case->station);
     files.camera_from_end_effector = session_case->camera_from_end_effector;
-    const sessions::MadeCase new_case = sessions::makeCase(files);
+    const MadeCase new_case = makeCase(files);
     EXPECT_THAT(new_case.notes, IsEmpty());
-    EXPECT_EQ(sessions::inputsDigest(new_case.made), sessions::inputsDigest(*session_case))
-        << session_case->id;
+    EXPECT_EQ(inputsDigest(new_case.made), inputsDigest(*session_case)) << session_case->id;
     EXPECT_TRUE(session_case->requirement);
     EXPECT_TRUE(session_case->feature_size_m);
     EXPECT_TRUE(session_case->camera_from_station_truth == new_case.made.camera_from_station_truth);
   }
-  const Session only =
-      sessions::makeSession(exampleFolder() / "dataset.json", {session.cases[1]->id});
+  const Session only = makeSession(kDataset, {session.cases[1]->id});
   ASSERT_EQ(only.cases.size(), 1u);
   EXPECT_TRUE(only.cases[0] == session.cases[1]);
 }
 
 TEST(SessionMaker, RequirementOfTheDataset_SelectsTheCheckPreset) {
+  EXPECT_EQ(makeSession(kDataset).review.preset, "sample_transfer");
   const TemporaryFolder folder;
-  const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
-  EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer");
-  auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
-  json["requirement"] = {{"projection_px", 5.0}};
-  folder.write("stations/dataset.json", json.dump());
-  EXPECT_EQ(sessions::makeSession(file).review.preset, "photographs");
-  json["cases"][0]["requirement"] = {
-      {"normal_mm", 1.0}, {"lateral_mm", 1.0}, {"rotation_deg", 1.0}};
-  folder.write("stations/dataset.json", json.dump());
-  EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer") << "they differ";
+  copyOfExamples(folder);
+  const Session photographs = sessionOfChanged(folder, [](auto& json) {
+    json["requirement"] = {{"projection_px", 5.0}};
+  });
+  EXPECT_EQ(photographs.review.preset, "photographs");
+  const Session different = sessionOfChanged(folder, [](auto& json) {
+    json["cases"][0]["requirement"] = {
+        {"normal_mm", 1.0}, {"lateral_mm", 1.0}, {"rotation_deg", 1.0}};
+  });
+  EXPECT_EQ(different.review.preset, "sample_transfer");
 }
 
 TEST(SessionMaker, SigmasAndTruth_OfTheDataset_AreKept) {
   const TemporaryFolder folder;
-  const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
-  auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
-  for (auto& station : json["stations"]) station["mesh_scale_sigma"] = 0.001;
-  for (auto& camera : json["cameras"])
-    camera["calibration_sigma"] = {{"focal_relative", 0.003}, {"principal_point_px", 2.0}};
-  folder.write("stations/dataset.json", json.dump());
-  for (const auto& session_case : sessions::makeSession(file).cases) {
+  CaseFiles files = filesOf(copyOfExamples(folder) / "os");
+  const Session stated = sessionOfChanged(folder, [](auto& json) {
+    for (auto& station : json["stations"]) station["mesh_scale_sigma"] = 0.001;
+    for (auto& camera : json["cameras"])
+      camera["calibration_sigma"] = {{"focal_relative", 0.003}, {"principal_point_px", 2.0}};
+  });
+  for (const auto& session_case : stated.cases) {
     EXPECT_EQ(session_case->mesh_scale_sigma, 0.001);
-    EXPECT_EQ(session_case->calibration_sigma, (sessions::CalibrationSigma{0.003, 2.0}));
+    EXPECT_EQ(session_case->calibration_sigma, (CalibrationSigma{0.003, 2.0}));
   }
-  sessions::CaseFiles files = filesOf(file.parent_path() / "os");
   files.mesh_scale_sigma = 0.002;
-  Matrix6d covariance = 1e-6 * Matrix6d::Identity();
+  const Matrix6d covariance = 1e-6 * Matrix6d::Identity();
   files.truth = folder / "truth.json";
-  sessions::writePose(*files.truth, Pose(), {}, covariance);
-  const sessions::SessionCase result = sessions::makeCase(files).made;
+  writePose(*files.truth, Pose(), {}, covariance);
+  const SessionCase result = makeCase(files).made;
   EXPECT_EQ(result.mesh_scale_sigma, 0.002);
   EXPECT_EQ(result.truth_covariance, covariance);
 }
 
 /// The example's camera as vectors in a frame of the rover, with a covariance.
-sessions::CahvorFile vectorsWithCovariance(const Camera& camera) {
+CahvorFile vectorsWithCovariance(const Camera& camera) {
   Camera linear = camera;
   linear.model = CameraModel::kCahv;
   linear.distortion = {};
   EXPECT_EQ(prepareCamera(linear), Status::kOk);
   Random random(7);
   const Eigen::VectorXd sigma = Eigen::VectorXd::LinSpaced(12, 1e-4, 1e-3);
-  sessions::CahvorFile file{cahvFromCamera(linear, randomPose(random)), 1024, 1024, {}, {}};
+  CahvorFile file{cahvFromCamera(linear, randomPose(random)), 1024, 1024, {}, {}};
   file.covariance = sigma * sigma.transpose();
   file.covariance.diagonal() *= 2.0;
   return file;
@@ -123,31 +135,27 @@ sessions::CahvorFile vectorsWithCovariance(const Camera& camera) {
 
 TEST(SessionMaker, CovarianceOfACamerasVectors_IsPartOfTheSessionAndOfItsFile) {
   const TemporaryFolder folder;
-  sessions::CaseFiles files = filesOf(copyOfExamples(folder) / "os");
-  const sessions::CahvorFile vectors = vectorsWithCovariance(sessions::makeCase(files).made.camera);
+  CaseFiles files = filesOf(copyOfExamples(folder) / "os");
+  const CahvorFile vectors = vectorsWithCovariance(makeCase(files).made.camera);
   files.camera = folder / "os.cahv";
-  sessions::writeCahvorFile(files.camera, vectors);
-  const sessions::SessionCase session_case = sessions::makeCase(files).made;
+  writeCahvorFile(files.camera, vectors);
+  const SessionCase session_case = makeCase(files).made;
   ASSERT_TRUE(session_case.camera_covariance);
-  const sessions::InputSigmas sigmas(session_case);
+  const InputSigmas sigmas(session_case);
   EXPECT_TRUE(sigmas.calibration_derived);
-  EXPECT_THAT(sessions::calibrationText(sigmas), HasSubstr("by the camera's covariance"));
-  Session session;
-  session = withCase(session, session_case);
-  (void)sessions::writeSessionFile(folder / "a.boresight.json", session);
-  const Session again = sessions::readSessionFile(folder / "a.boresight.json").session;
-  EXPECT_TRUE(again.cases[0]->camera_covariance == session_case.camera_covariance);
-  EXPECT_TRUE(again == session);
-  sessions::SessionCase without = session_case;
+  EXPECT_THAT(calibrationText(sigmas), HasSubstr("by the camera's covariance"));
+  const Session session = withCase({}, session_case);
+  (void)writeSessionFile(folder / "a.boresight.json", session);
+  EXPECT_TRUE(readSessionFile(folder / "a.boresight.json").session == session);
+  SessionCase without = session_case;
   without.camera_covariance.reset();
   EXPECT_FALSE(without == session_case);
-  EXPECT_EQ(sessions::inputsDigest(without), sessions::inputsDigest(session_case))
-      << "no run depends on it";
+  EXPECT_EQ(inputsDigest(without), inputsDigest(session_case)) << "no run depends on it";
 }
 
 TEST(InputSigmas, AreStatedForAllCasesOfTheMeshAndOfTheCamera) {
-  Session session = sessions::makeSession(exampleFolder() / "dataset.json");
-  sessions::SessionCase other = *session.cases[0];
+  Session session = makeSession(kDataset);
+  SessionCase other = *session.cases[0];
   other.id = "same mesh";
   other.camera.fx += 1.0;
   session = withCase(session, other);
@@ -155,32 +163,31 @@ TEST(InputSigmas, AreStatedForAllCasesOfTheMeshAndOfTheCamera) {
   other.id = "same camera";
   other.camera = session.cases[0]->camera;
   session = withCase(session, other);
-  const Session stated =
-      sessions::withInputSigmas(session, session.cases[0]->id, 1e-3, sessions::CalibrationSigma{});
+  const Session stated = withInputSigmas(session, session.cases[0]->id, 1e-3, CalibrationSigma{});
   EXPECT_EQ(stated.cases[0]->mesh_scale_sigma, 1e-3);
   EXPECT_EQ(stated.findCase("same mesh")->mesh_scale_sigma, 1e-3);
   EXPECT_FALSE(stated.findCase("same mesh")->calibration_sigma);
   EXPECT_FALSE(stated.findCase("same camera")->mesh_scale_sigma);
   EXPECT_TRUE(stated.findCase("same camera")->calibration_sigma);
-  EXPECT_TRUE(sessions::withInputSigmas(stated, session.cases[0]->id, {}, {}) == session);
-  EXPECT_EQ(sessions::inputsDigest(*stated.cases[0]), sessions::inputsDigest(*session.cases[0]))
+  EXPECT_TRUE(withInputSigmas(stated, session.cases[0]->id, {}, {}) == session);
+  EXPECT_EQ(inputsDigest(*stated.cases[0]), inputsDigest(*session.cases[0]))
       << "no run depends on them";
 }
 
 TEST(SessionMaker, TheSessionThatShipsIsMadeOfTheDatasetThatShips) {
   const auto file = exampleFolder().parent_path() / "example.boresight.json";
-  const Session shipped = sessions::readSessionFile(file).session;
-  EXPECT_TRUE(shipped == sessions::makeSession(exampleFolder() / "dataset.json"));
-  EXPECT_THAT(sessions::checkInputs(shipped), IsEmpty());
+  const Session shipped = readSessionFile(file).session;
+  EXPECT_TRUE(shipped == makeSession(kDataset));
+  EXPECT_THAT(checkInputs(shipped), IsEmpty());
 }
 
 TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
-  const sessions::SessionCase session_case = firstExample();
-  const std::string digest = sessions::inputsDigest(session_case);
-  const auto changed = [&](void (*change)(sessions::SessionCase&)) {
-    sessions::SessionCase other = session_case;
+  const SessionCase session_case = firstExample();
+  const std::string digest = inputsDigest(session_case);
+  const auto changed = [&](void (*change)(SessionCase&)) {
+    SessionCase other = session_case;
     change(other);
-    return sessions::inputsDigest(other) != digest;
+    return inputsDigest(other) != digest;
   };
   EXPECT_FALSE(changed([](auto& c) { c.id = "other"; }));
   EXPECT_FALSE(changed([](auto& c) { c.tags = {"new"}; }));
@@ -192,8 +199,7 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.mesh_unit = "mm"; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.frame_from_mesh.translation_m.x() = 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.normal_threshold_rad *= 2; }));
-  EXPECT_TRUE(
-      changed([](auto& c) { c.parts[0].source.state.role = sessions::PartRole::kOccludes; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.role = PartRole::kOccludes; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.present = false; }));
   EXPECT_FALSE(changed([](auto& c) { c.parts[0].source.name = "station"; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.albedo = 0.42; }));
@@ -201,64 +207,52 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.camera.fx += 1e-9; }));
   EXPECT_TRUE(changed([](auto& c) { c.camera_from_station_seed.translation_m.z() += 1e-9; }));
   EXPECT_TRUE(changed([](auto& c) { c.uncertainty.rotation_deg.x() = 1.0; }));
-  EXPECT_TRUE(changed([](auto& c) { c.uncertainty.pivot = sessions::UncertaintyPivot::kStation; }));
-  EXPECT_TRUE(changed([](auto& c) { c.ignore = sessions::InputFile{"/m", std::string(64, 'a')}; }));
+  EXPECT_TRUE(changed([](auto& c) { c.uncertainty.pivot = UncertaintyPivot::kStation; }));
+  EXPECT_TRUE(changed([](auto& c) { c.ignore = InputFile{"/m", std::string(64, 'a')}; }));
   EXPECT_TRUE(changed([](auto& c) { c.ignore_strokes.emplace_back(); }));
   EXPECT_TRUE(changed([](auto& c) { c.has_seed = false; }));
 }
 
-/// The digests of the shipped cases before parts had names, frames and states.
-TEST(SessionMaker, DigestsOfCasesWithoutLaterMembers_AreThoseOfEarlierVersions) {
-  const Session session = sessions::makeSession(exampleFolder() / "dataset.json");
-  ASSERT_EQ(session.cases.size(), 2u);
-  EXPECT_EQ(sessions::inputsDigest(*session.cases[0]),
-            "4e00d12e9b2e345ef840c3ba016df34a73b1de8386f343fba095c52f99a33618");
-  EXPECT_EQ(sessions::inputsDigest(*session.cases[1]),
-            "2f2504644b1536f88ea047a97a78a2bba37f5d36a46fc31504ab216ca1e7c1aa");
-}
-
 /// A part of a named frame, joined to the camera by a transform.
-sessions::SessionCase withGripper(sessions::SessionCase session_case, double ahead_m) {
-  sessions::FrameTransform transform;
-  transform.target = sessions::kCameraFrame;
-  transform.source = sessions::kEndEffectorFrame;
+SessionCase withGripper(SessionCase session_case, double ahead_m) {
+  FrameTransform transform;
+  transform.target = kCameraFrame;
+  transform.source = kEndEffectorFrame;
   transform.target_from_source.translation_m.z() = ahead_m;
   transform.comment = "by hand";
   transform.file = "frames.json";
   transform.file_sha256 = std::string(64, 'a');
   session_case.frames = {transform};
-  sessions::MeshInput gripper = session_case.parts[0];
-  gripper.source.frame = sessions::kEndEffectorFrame;
-  gripper.source.state.role = sessions::PartRole::kOccludes;
+  MeshInput gripper = session_case.parts[0];
+  gripper.source.frame = kEndEffectorFrame;
+  gripper.source.state.role = PartRole::kOccludes;
   session_case.parts.push_back(gripper);
   return session_case;
 }
 
 TEST(SessionMaker, Digest_FollowsThePlaceOfAPartInANamedFrame) {
-  const sessions::SessionCase plain = firstExample();
-  sessions::SessionCase near = withGripper(plain, 0.25);
-  const sessions::SessionCase far = withGripper(plain, 0.5);
-  EXPECT_NE(sessions::inputsDigest(near), sessions::inputsDigest(far));
+  const SessionCase plain = firstExample();
+  SessionCase near = withGripper(plain, 0.25);
+  const SessionCase far = withGripper(plain, 0.5);
+  EXPECT_NE(inputsDigest(near), inputsDigest(far));
   // The same place, given in the camera frame.
-  sessions::SessionCase by_hand = near;
+  SessionCase by_hand = near;
   by_hand.frames.clear();
-  by_hand.parts[1].source.frame = sessions::kCameraFrame;
+  by_hand.parts[1].source.frame = kCameraFrame;
   by_hand.parts[1].source.frame_from_mesh.translation_m.z() = 0.25;
-  EXPECT_EQ(sessions::inputsDigest(by_hand), sessions::inputsDigest(near));
+  EXPECT_EQ(inputsDigest(by_hand), inputsDigest(near));
   // A part that the core is not given is no input.
-  for (const sessions::PartState& state :
-       {sessions::PartState{sessions::PartRole::kIgnored, true},
-        sessions::PartState{sessions::PartRole::kOccludes, false}}) {
+  for (const PartState& state :
+       {PartState{PartRole::kIgnored, true}, PartState{PartRole::kOccludes, false}}) {
     near.parts[1].source.state = state;
-    EXPECT_EQ(sessions::inputsDigest(near), sessions::inputsDigest(plain));
+    EXPECT_EQ(inputsDigest(near), inputsDigest(plain));
   }
 }
 
 TEST(SessionMaker, GripperOfANamedFrame_IsLoadedInTheCameraFrame) {
-  const sessions::SessionCase plain = firstExample();
-  sessions::SessionCase session_case = withGripper(plain, 0.25);
+  SessionCase session_case = withGripper(firstExample(), 0.25);
   // The seed's chain does not matter: the part moves with the camera.
-  const auto loaded = sessions::loadCase(session_case);
+  const auto loaded = loadCase(session_case);
   const MeshView view = loaded->scene.view();
   ASSERT_EQ(validateMesh(view), Status::kOk);
   ASSERT_EQ(view.parts.size(), 2u);
@@ -270,43 +264,36 @@ TEST(SessionMaker, GripperOfANamedFrame_IsLoadedInTheCameraFrame) {
                 view.vertices_in_station_m[i].z() + 0.25F, 1e-6F);
   session_case.frames.clear();
   const TemporaryFolder folder;
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(session_case); }),
+  EXPECT_THAT(folder.message([&] { (void)loadCase(session_case); }),
               HasSubstr("frame: END_EFFECTOR is joined to neither CAMERA nor STATION"));
   // A reload sees that only the transform has changed.
-  session_case = withGripper(plain, 0.5);
-  const auto reloaded = sessions::reloadCase(*loaded, session_case);
+  const auto reloaded = reloadCase(*loaded, withGripper(firstExample(), 0.5));
   EXPECT_NEAR(reloaded->scene.vertices_in_station_m[first].z(),
               view.vertices_in_station_m[0].z() + 0.5F, 1e-6F);
 }
 
 TEST(SessionMaker, StatesOfADataset_ReachTheCases) {
   const TemporaryFolder folder;
-  const auto file = copyOfExamples(folder) / "dataset.json";
-  auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
-  for (auto& [id, station] : json["stations"].items()) {
-    nlohmann::json station_part = {{"mesh", station["mesh"]}, {"mesh_unit", station["mesh_unit"]}};
-    nlohmann::json lid = station_part;
-    lid["name"] = "lid";
-    lid["role"] = "occludes";
-    lid["present"] = false;
-    station.erase("mesh");
-    station.erase("mesh_unit");
-    station["parts"] = {station_part, lid};
-  }
-  json["cases"][1]["state"] = {{"lid", "on"}};
-  folder.write("stations/dataset.json", json.dump());
-  const Session session = sessions::makeSession(file);
+  copyOfExamples(folder);
+  const Session session = sessionOfChanged(folder, [](auto& json) {
+    for (auto& station : json["stations"]) {
+      const nlohmann::json part = {{"mesh", station["mesh"]}, {"mesh_unit", station["mesh_unit"]}};
+      nlohmann::json lid = part;
+      lid.update({{"name", "lid"}, {"role", "occludes"}, {"present", false}});
+      station.erase("mesh");
+      station.erase("mesh_unit");
+      station["parts"] = {part, lid};
+    }
+    json["cases"][1]["state"] = {{"lid", "on"}};
+  });
   EXPECT_FALSE(session.cases[0]->parts[1].source.state.present);
-  EXPECT_EQ(session.cases[1]->parts[1].source.state,
-            (sessions::PartState{sessions::PartRole::kOccludes, true}));
+  EXPECT_EQ(session.cases[1]->parts[1].source.state, (PartState{PartRole::kOccludes, true}));
   EXPECT_EQ(session.cases[0]->parts[1].sha256.size(), 64u) << "also of a part that is off";
-  sessions::writeSessionFile(folder / "s.json", session);
-  EXPECT_TRUE(sessions::readSessionFile(folder / "s.json").session == session);
+  writeSessionFile(folder / "s.json", session);
+  EXPECT_TRUE(readSessionFile(folder / "s.json").session == session);
 }
 
 TEST(WithPartState, ChangesOnePartAndLeavesAMatchedOne) {
-  using sessions::PartRole;
-  using sessions::PartState;
   const Session session = withCase({}, withGripper(firstExample(), 0.25));
   const std::string id = session.cases[0]->id;
   const Session off = withPartState(session, id, 1, PartState{PartRole::kOccludes, false});
@@ -327,21 +314,19 @@ TEST(WithPartState, ChangesOnePartAndLeavesAMatchedOne) {
 
 TEST(SessionMaker, CaseWithoutSeed_IsReadBackAndNotRun) {
   const TemporaryFolder folder;
-  sessions::CaseFiles files = filesOf(exampleFolder() / "os");
+  CaseFiles files = filesOf(exampleFolder() / "os");
   files.seed.clear();
-  const sessions::MadeCase made = sessions::makeCase(files);
+  const MadeCase made = makeCase(files);
   EXPECT_FALSE(made.made.has_seed);
   EXPECT_THAT(made.notes, IsEmpty()) << "nothing is said of an uncertainty of nothing";
   const Session session = withCase({}, made.made);
-  sessions::writeSessionFile(folder / "s.json", session);
+  writeSessionFile(folder / "s.json", session);
   EXPECT_EQ(folder.read("s.json").find("\"seed\""), std::string::npos);
-  EXPECT_TRUE(sessions::readSessionFile(folder / "s.json").session == session);
-  const auto loaded = sessions::loadCase(made.made);
-  EXPECT_THAT(folder.message([&] { sessions::requireRunnable(*loaded); }),
-              HasSubstr("annotate the case"));
-  const sessions::InputSheet sheet = sessions::inputSheet(*loaded);
-  for (const sessions::RedFlag& flag : sheet.flags)
-    EXPECT_EQ(flag.text.find("seed"), std::string::npos) << flag.text;
+  EXPECT_TRUE(readSessionFile(folder / "s.json").session == session);
+  const auto loaded = loadCase(made.made);
+  EXPECT_THAT(folder.message([&] { requireRunnable(*loaded); }), HasSubstr("annotate the case"));
+  for (const RedFlag& flag : inputSheet(*loaded).flags)
+    EXPECT_THAT(flag.text, Not(HasSubstr("seed")));
 }
 
 }  // namespace

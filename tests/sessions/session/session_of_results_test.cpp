@@ -15,6 +15,8 @@
 namespace boresight::sessions {
 namespace {
 
+using std::string_literals::operator""s;
+
 /// The example, run with two seeds a case.
 class SessionOfResults : public testing::Test {
  protected:
@@ -46,6 +48,10 @@ class SessionOfResults : public testing::Test {
       run.method = method;
       writer.add(run);
     }
+  }
+
+  std::string message() const {
+    return folder_.message([this] { (void)sessionOfResults(file_); });
   }
 
   const test::TemporaryFolder folder_;
@@ -84,12 +90,6 @@ TEST_F(SessionOfResults, TheQueueOfTheResultsIsThatOfTheirSession) {
   EXPECT_EQ(queueCsv(rows), queueCsv(of_session));
 }
 
-TEST_F(SessionOfResults, TheQueueNeedsRunsOfWhs) {
-  write("ncc");
-  EXPECT_THAT(folder_.message([&] { (void)resultsQueue(file_); }),
-              HasSubstr("no runs of the method whs"));
-}
-
 TEST_F(SessionOfResults, RepeatsARunByItsOwnSeedAndOptions) {
   write();
   const Session session = sessionOfResults(file_);
@@ -104,25 +104,22 @@ TEST_F(SessionOfResults, RepeatsARunByItsOwnSeedAndOptions) {
 TEST_F(SessionOfResults, RefusesWhatItCannotShow) {
   EXPECT_THROW(sessionOfResults(file_), InputError);
   write("ncc");
-  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_); }),
+  EXPECT_THAT(folder_.message([&] { (void)resultsQueue(file_); }),
               HasSubstr("no runs of the method whs"));
+  EXPECT_THAT(message(), HasSubstr("no runs of the method whs"));
   write("whs", "x");
-  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_); }),
-              HasSubstr("deliberately wrong"));
+  EXPECT_THAT(message(), HasSubstr("deliberately wrong"));
 }
 
-TEST_F(SessionOfResults, RefusesABopFolderByNamingIt) {
-  ResultsWriter writer(file_, {folder_.path().string(), "one", 2, "1"});
-  writer.admit(methodFacts("whs", "default", options_.localizer));
-  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_); }),
-              HasSubstr("BOP folder " + folder_.path().string()));
-}
-
-TEST_F(SessionOfResults, RefusesADatasetThatHasChanged) {
-  ResultsWriter writer(file_, {dataset_file_.string(), "another", 2, "1"});
-  writer.admit(methodFacts("whs", "default", options_.localizer));
-  EXPECT_THAT(folder_.message([&] { (void)sessionOfResults(file_); }),
-              HasSubstr("has changed since"));
+TEST_F(SessionOfResults, RefusesABopFolderAndADatasetThatHasChanged) {
+  const std::string bop = folder_.path().string();
+  for (const auto& [dataset, text] : {std::pair(bop, "BOP folder " + bop),
+                                      std::pair(dataset_file_.string(), "has changed since"s)}) {
+    std::filesystem::remove(file_);
+    ResultsWriter writer(file_, {dataset, "another", 2, "1"});
+    writer.admit(methodFacts("whs", "default", options_.localizer));
+    EXPECT_THAT(message(), HasSubstr(text));
+  }
 }
 
 TEST(ResultTag, IsReadBack) {

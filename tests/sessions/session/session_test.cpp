@@ -45,12 +45,11 @@ TEST(ChangedCases, ListsEditedCases) {
   EXPECT_THAT(changedCases(before, withCase(before, randomCase(random, "d"))), ElementsAre("d"));
   EXPECT_THAT(changedCases(before, withoutCase(before, "a")), IsEmpty());
 
-  Session decided = before;
-  decided.decisions.push_back({"a", sessions::Verdict::kValidated, "Ada", "", "", ""});
-  EXPECT_THAT(changedCases(before, decided), ElementsAre("a"));
-  Session looked = before;
-  looked.view.case_id = "b";
-  EXPECT_THAT(changedCases(before, looked), IsEmpty());
+  Session after = before;
+  after.view.case_id = "b";
+  EXPECT_THAT(changedCases(before, after), IsEmpty());
+  after.decisions.push_back({"a", sessions::Verdict::kValidated, "Ada", "", "", ""});
+  EXPECT_THAT(changedCases(before, after), ElementsAre("a"));
 }
 
 struct Entry {
@@ -69,12 +68,6 @@ struct KeyOfEntry {
 };
 using List = sessions::KeyedList<Entry, KeyOfEntry>;
 
-List listOf(int count) {
-  List list;
-  for (int i = 0; i < count; ++i) list.push_back({"k" + std::to_string(i % 10), i});
-  return list;
-}
-
 TEST(SameScene, FramesAndStatesOfPartsMakeAnother) {
   Random random = randomFor("SameScene");
   const sessions::SessionCase session_case = randomCase(random, "a");
@@ -91,19 +84,17 @@ TEST(SameScene, FramesAndStatesOfPartsMakeAnother) {
   EXPECT_TRUE(sameMeshes(session_case, other)) << "in another state";
 }
 
-TEST(KeyedList, FindsTheLastElementOfAKey) {
-  const List list = listOf(25);
+TEST(KeyedList, FindsTheLastElementOfAKeyAlsoWhenElementsWereChangedRemovedOrReplaced) {
+  List list;
+  EXPECT_EQ(list.find("k1"), nullptr);
+  for (int i = 0; i < 25; ++i) list.push_back({"k" + std::to_string(i % 10), i});
   keys_asked = 0;
   ASSERT_NE(list.find("k3"), nullptr);
   EXPECT_EQ(list.find("k3")->number, 23);
   EXPECT_EQ(list.find("k7")->number, 17);
   EXPECT_EQ(list.find("other"), nullptr);
   EXPECT_EQ(keys_asked, 0) << "no element is looked at";
-  EXPECT_EQ(List().find("k1"), nullptr);
-}
 
-TEST(KeyedList, FindsElementsThatWereChangedRemovedOrReplaced) {
-  List list = listOf(25);
   list.back().key = "last";
   EXPECT_EQ(list.find("last")->number, 24);
   EXPECT_EQ(list.find("k4")->number, 14);
@@ -149,26 +140,25 @@ Session asIfRun(Session session) {
 }
 
 Session withRandomEdit(const Session& session, Random& random) {
-  const auto at = static_cast<std::size_t>(
-      random.uniform(0.0, static_cast<double>(session.cases.size()) - 1e-9));
-  SessionCase session_case = *session.cases[at];
+  SessionCase session_case = *session.cases[test::indexBelow(random, session.cases.size())];
   LocalizerOptions options = sessionOptions(session, {});
-  switch (static_cast<int>(random.uniform(0.0, 5.0))) {
+  switch (random.below(5)) {
     case 0:
       session_case.camera_from_station_seed.translation_m.x() += 0.01;
-      return withCase(session, session_case);
+      break;
     case 1:
       session_case.feature_size_m = random.uniform(0.001, 0.004);
-      return withCase(session, session_case);
+      break;
     case 2:
       session_case.tags.push_back("seen");  // no input of a run
-      return withCase(session, session_case);
+      break;
     case 3:
       options.pnp.seed += 1;
       return withOptions(session, session.profile, options);
     default:
       return withOptions(session, session.profile == "paper" ? "default" : "paper", options);
   }
+  return withCase(session, session_case);
 }
 
 TEST(StaleRuns, SaysAsStalenessWhateverIsEditedAndUndone) {
@@ -177,7 +167,7 @@ TEST(StaleRuns, SaysAsStalenessWhateverIsEditedAndUndone) {
   std::vector<Session> history = {asIfRun(makeSession(test::exampleFolder() / "dataset.json"))};
   int stale_count = 0, fresh_count = 0;
   for (int edit = 0; edit < 200; ++edit) {
-    const double chance = random.uniform(0.0, 1.0);
+    const double chance = random.uniform();
     if (chance < 0.1)
       history.resize(1);
     else if (chance < 0.5 && history.size() > 1)
@@ -205,8 +195,8 @@ Pose somePose(double x_m) {
 
 Session leftRightTop() {
   Session session;
+  SessionCase session_case;
   for (const char* id : {"left", "right", "top"}) {
-    SessionCase session_case;
     session_case.id = id;
     session = withCase(session, session_case);
   }
@@ -218,20 +208,17 @@ Pose between(const Session& session, const char* to, const char* from) {
          session.findCase(from)->rig->camera_from_rig.inverse();
 }
 
-void expectNear(const Pose& a, const Pose& b) {
-  EXPECT_LT((a.translation_m - b.translation_m).norm(), 1e-12);
-  EXPECT_LT(a.rotation.angularDistance(b.rotation), 1e-12);
-}
+auto isNear(const Pose& pose) { return test::poseNear(pose, 1e-12, 1e-12); }
 
 TEST(RigLinks, TheCameraThatIsLinkedLiesWhereItWasSaidFromTheOther) {
   Session session = withRigLink(leftRightTop(), "left", "right", somePose(0.1));
-  EXPECT_EQ(casesOfRig(session, "left"), std::vector<std::string>{"right"});
-  expectNear(between(session, "right", "left"), somePose(0.1));
+  EXPECT_THAT(casesOfRig(session, "left"), ElementsAre("right"));
+  EXPECT_THAT(between(session, "right", "left"), isNear(somePose(0.1)));
   // A third one linked to the second is linked to the first as well.
   session = withRigLink(session, "right", "top", somePose(-0.3));
-  EXPECT_EQ(casesOfRig(session, "left"), (std::vector<std::string>{"right", "top"}));
-  expectNear(between(session, "top", "right"), somePose(-0.3));
-  expectNear(between(session, "top", "left"), somePose(-0.3) * somePose(0.1));
+  EXPECT_THAT(casesOfRig(session, "left"), ElementsAre("right", "top"));
+  EXPECT_THAT(between(session, "top", "right"), isNear(somePose(-0.3)));
+  EXPECT_THAT(between(session, "top", "left"), isNear(somePose(-0.3) * somePose(0.1)));
 }
 
 TEST(RigLinks, ALinkThatIsDroppedLeavesTheOthersAndARigOfOneIsNone) {
@@ -239,21 +226,17 @@ TEST(RigLinks, ALinkThatIsDroppedLeavesTheOthersAndARigOfOneIsNone) {
   session = withRigLink(session, "left", "top", Pose());
   session = withoutRigLink(session, "left");
   EXPECT_FALSE(session.findCase("left")->rig);
-  EXPECT_EQ(casesOfRig(session, "right"), std::vector<std::string>{"top"});
+  EXPECT_THAT(casesOfRig(session, "right"), ElementsAre("top"));
+  // A new rig does not take the name of another.
+  ASSERT_EQ(session.findCase("top")->rig->id, "left");
+  SessionCase fourth;
+  fourth.id = "fourth";
+  EXPECT_THAT(casesOfRig(withRigLink(withCase(session, fourth), "left", "fourth", Pose()), "left"),
+              ElementsAre("fourth"));
   session = withoutRigLink(session, "top");
   for (const auto& session_case : session.cases)
     EXPECT_FALSE(session_case->rig) << session_case->id;
   EXPECT_EQ(withoutRigLink(session, "top"), session);
-}
-
-TEST(RigLinks, ANewRigDoesNotTakeTheNameOfAnother) {
-  Session session = withRigLink(leftRightTop(), "left", "right", Pose());
-  session = withoutRigLink(withRigLink(session, "left", "top", Pose()), "left");
-  ASSERT_EQ(session.findCase("top")->rig->id, "left");
-  SessionCase fourth;
-  fourth.id = "fourth";
-  session = withRigLink(withCase(session, fourth), "left", "fourth", Pose());
-  EXPECT_EQ(casesOfRig(session, "left"), std::vector<std::string>{"fourth"});
 }
 
 TEST(RigLinks, NonsenseIsRefused) {

@@ -5,9 +5,12 @@
 
 #include "sessions/io/cameras/frame_tree.h"
 #include "sessions/io/files/errors.h"
+#include "tests/sessions/session/example_session.h"
 
 namespace boresight::sessions {
 namespace {
+
+using test::shifted;
 
 Session oneCase() {
   Session session;
@@ -17,18 +20,6 @@ Session oneCase() {
   session.cases.push_back(session_case);
   return session;
 }
-
-FrameTransform shift(const FrameName& target, const FrameName& source, double x_m) {
-  FrameTransform transform;
-  transform.target = target;
-  transform.source = source;
-  transform.target_from_source.translation_m = {x_m, 0.0, 0.0};
-  transform.comment = "test";
-  transform.file = "/folder/t.json";
-  return transform;
-}
-
-const FrameName kArm{"ARM_BASE", {}};
 
 TEST(StatedInputs, WhatIsNotStatedStays) {
   StatedInputs stated;
@@ -43,21 +34,22 @@ TEST(StatedInputs, WhatIsNotStatedStays) {
 
 TEST(StatedInputs, TransformsGiveTheEndEffectorAndReplaceFormerOnes) {
   StatedInputs stated;
-  stated.frames = {shift(kCameraFrame, kEndEffectorFrame, 0.1)};
+  stated.frames = {shifted(kCameraFrame, kEndEffectorFrame, 0.1)};
   Session session = withStated(oneCase(), "a", stated);
   EXPECT_NEAR(session.cases[0]->camera_from_end_effector->translation_m.x(), 0.1, 1e-12);
   EXPECT_EQ(session.cases[0]->frames[0].file, "t.json");
   // The other way round is the same two frames.
-  stated.frames = {shift(kEndEffectorFrame, kCameraFrame, -0.4)};
+  stated.frames = {shifted(kEndEffectorFrame, kCameraFrame, -0.4)};
   session = withStated(session, "a", stated);
   EXPECT_EQ(session.cases[0]->frames.size(), 1u);
   EXPECT_NEAR(session.cases[0]->camera_from_end_effector->translation_m.x(), 0.4, 1e-12);
 }
 
 TEST(StatedInputs, LoopIsRefused) {
+  const FrameName arm{"ARM_BASE", {}};
   StatedInputs stated;
-  stated.frames = {shift(kCameraFrame, kEndEffectorFrame, 0.1), shift(kArm, kEndEffectorFrame, 0.2),
-                   shift(kArm, kCameraFrame, 0.7)};
+  stated.frames = {shifted(kCameraFrame, kEndEffectorFrame, 0.1),
+                   shifted(arm, kEndEffectorFrame, 0.2), shifted(arm, kCameraFrame, 0.7)};
   EXPECT_THROW((void)withStated(oneCase(), "a", stated), InputError);
 }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/views_run.h"
 
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "core/views/views_localizer.h"
 #include "sessions/checks/review_subject.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/review/validated_pose_file.h"
+#include "sessions/run/runner.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"
 #include "tests/support/matchers.h"
@@ -17,30 +18,22 @@
 namespace boresight::test {
 namespace {
 
-using sessions::LocalizationTrace;
-using sessions::RunRecord;
-using sessions::Session;
-using sessions::SessionCase;
+using namespace sessions;
 
-/// Two views that run without a search, and what their runs give: run once for each leader.
-class TwoViews {
- public:
-  static const TwoViews& get() {
-    static const TwoViews views;
-    return views;
-  }
-  const Session& session() const { return session_; }
-  const std::vector<LocalizationTrace>& run(const std::string& leader) const {
-    static std::map<std::string, std::vector<LocalizationTrace>> runs;
-    if (!runs.contains(leader)) runs[leader] = sessions::runViews(session_, leader);
-    return runs[leader];
-  }
+/// Two views that run without a search.
+const Session& twoViews() {
+  static const TemporaryFolder folder;
+  static Session views = sessionOfTwoViews(folder.path());
+  views.options = {{"search.enabled", false}};
+  return views;
+}
 
- private:
-  TwoViews() { session_.options = {{"search.enabled", false}}; }
-  const TemporaryFolder folder_;
-  Session session_ = sessionOfTwoViews(folder_.path());
-};
+/// What their runs give: run once for each leader.
+const std::vector<LocalizationTrace>& runOfTwoViews(const std::string& leader) {
+  static std::map<std::string, std::vector<LocalizationTrace>> runs;
+  if (!runs.contains(leader)) runs[leader] = runViews(twoViews(), leader);
+  return runs[leader];
+}
 
 class ViewsRunTest : public testing::Test {
  protected:
@@ -49,23 +42,23 @@ class ViewsRunTest : public testing::Test {
   std::filesystem::path file() const { return folder_ / "s.boresight.json"; }
 
   /// Run and noted.
-  void run(const std::string& leader) { note(TwoViews::get().run(leader)); }
+  void run(const std::string& leader) { note(runOfTwoViews(leader)); }
   void note(const std::vector<LocalizationTrace>& views) {
     views_ = views;
-    for (const RunRecord& item : sessions::storeViews(session_, views_, file()))
+    for (const RunRecord& item : storeViews(session_, views_, file()))
       session_ = withRun(session_, item);
   }
 
   TemporaryFolder folder_;
-  Session session_ = TwoViews::get().session();
+  Session session_ = twoViews();
   std::vector<LocalizationTrace> views_;
 };
 
 TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   const SessionCase& session_case = *session_.cases[0];
   const SessionCase& other = *session_.cases[1];
-  const ExampleCase example("os");
-  const sessions::GrayImage turned = sessions::readImage(other.image.source.file);
+  const ExampleCase& example = osExample();
+  const GrayImage turned = readImage(other.image.source.file);
   std::array<View, 2> images;
   images[0].image = example.image.view();
   images[0].camera = example.camera;
@@ -80,64 +73,57 @@ TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   LocalizerOptions options = defaultProfile();
   options.templates.feature_size_m = session_case.feature_size_m.value();
   options.search.enabled = false;
-  std::size_t bytes = 0;
-  ASSERT_EQ(ViewsLocalizer::requiredBytes(problem, options, 1, Kernels::kPortable, bytes),
-            Status::kOk);
-  const auto memory = std::make_unique<std::byte[]>(bytes);
-  const auto expected = std::make_unique<ViewsLocalizer>(
-      problem, options, std::span<std::byte>(memory.get(), bytes), 1, Kernels::kPortable);
-  while (!expected->step().finished) {
-  }
-  ASSERT_EQ(expected->result().status, LocalizationStatus::kConverged);
+  Runner core(problem, options, {first(), second()});  // RunnerViewsTest
+  core.advance(StepUntil::kEnd);
 
-  views_ = TwoViews::get().run(first());
+  views_ = runOfTwoViews(first());
   ASSERT_EQ(views_.size(), 2u);
   for (std::size_t v = 0; v < 2; ++v) {
-    const ViewReport& report = expected->result().views[v];
-    EXPECT_EQ(views_[v].camera_from_station, report.camera_from_station);
+    EXPECT_EQ(views_[v].digest, core.traces()[v].digest);
     EXPECT_TRUE(views_[v].converged());
-    EXPECT_EQ(views_[v].iterations.back()->refinement.used_count, report.edges_used);
-    EXPECT_EQ(static_cast<int>(views_[v].iterations.size()), expected->result().iterations);
     const Pose& truth = *session_.cases[v]->camera_from_station_truth;
     const Vector6d error = perturbationBetween(truth, views_[v].camera_from_station);
     EXPECT_LT(error.tail<3>().norm(), 1e-3);
   }
-  EXPECT_EQ(views_[0].covariance, expected->result().covariance) << "the rig is its camera";
+  EXPECT_EQ(views_[0].covariance, core.joint().result.covariance) << "the rig is its camera";
 }
 
 TEST_F(ViewsRunTest, EachCaseGetsARunThatNamesTheOthersAndIsReadAgain) {
   run(first());
   ASSERT_EQ(session_.runs.size(), 2u);
-  sessions::writeSessionFile(file(), session_);
-  const Session reread = sessions::readSessionFile(file()).session;
+  writeSessionFile(file(), session_);
+  const Session reread = readSessionFile(file()).session;
   EXPECT_EQ(reread, session_);
   for (std::size_t v = 0; v < 2; ++v) {
     const RunRecord& record = reread.runs[v];
     EXPECT_EQ(record.case_id, session_.cases[v]->id);
     EXPECT_EQ(record.status, "converged");
     ASSERT_TRUE(record.together.has_value());
-    EXPECT_EQ(sessions::casesOf(*record.together), (std::vector<std::string>{first(), second()}));
-    const LocalizationTrace snapshot = sessions::loadSnapshot(record);
+    EXPECT_EQ(casesOf(*record.together), (std::vector<std::string>{first(), second()}));
+    const LocalizationTrace snapshot = loadSnapshot(record);
     EXPECT_EQ(snapshot.views, views_[v].views);
     EXPECT_EQ(snapshot.own_view, v);
     EXPECT_EQ(snapshot.digest, views_[v].digest);
-    EXPECT_FALSE(sessions::stalenessOf(record, reread, file()).stale());
+    EXPECT_FALSE(stalenessOf(record, reread, file()).stale());
   }
-  const LocalizationTrace alone = sessions::runCase(session_, first());
+  const LocalizationTrace alone = runCase(session_, first());
   EXPECT_NE(alone.digest, session_.runs[0].digest);
 }
 
-TEST_F(ViewsRunTest, ARunIsRepeatedWithTheOthers) {
+TEST_F(ViewsRunTest, ARunIsRepeatedWithTheOthersUnlessItsOutcomesAreStatedOtherwise) {
   run(second());
   for (const RunRecord& record : session_.runs)
-    EXPECT_EQ(sessions::repeatRun(record, session_, file()).digest, record.digest);
+    EXPECT_EQ(repeatRun(record, session_, file()).digest, record.digest);
   EXPECT_EQ(session_.runs[0].together->views[0].case_id, second()) << "it led";
+  RunRecord forged = session_.runs[0];
+  forged.together->views[1].status = "pnp_failed";
+  EXPECT_THROW((void)repeatRun(forged, session_, file()), InputError);
 }
 
 TEST_F(ViewsRunTest, WhatAnotherViewDependsOnMakesItStale) {
   run(first());
   const auto stale = [this](const Session& next) {
-    return sessions::stalenessOf(session_.runs[0], next, file()).inputs_changed;
+    return stalenessOf(session_.runs[0], next, file()).inputs_changed;
   };
   const auto changed = [this](void (*change)(SessionCase&)) {
     return withChanged(session_, second(), change);
@@ -150,115 +136,94 @@ TEST_F(ViewsRunTest, WhatAnotherViewDependsOnMakesItStale) {
   EXPECT_FALSE(stale(changed([](SessionCase& view) {
     view.camera_from_station_seed.translation_m.x() += 1e-6;
   }))) << "the first view's seed alone counts";
-  EXPECT_THAT(folder_.message([&] { (void)sessions::repeatRun(session_.runs[0], masked, file()); }),
+  EXPECT_THAT(folder_.message([&] { (void)repeatRun(session_.runs[0], masked, file()); }),
               HasSubstr("one of these views has changed or is missing"));
 }
 
 TEST_F(ViewsRunTest, ABlackViewIsLeftOutAndSaysWhy) {
-  const LocalizationTrace alone = sessions::runCase(session_, first());
   session_ = withBlackSecond(session_, folder_.path());
-  note(sessions::runViews(session_, first()));
-  EXPECT_EQ(views_[0].camera_from_station, alone.camera_from_station);
-  EXPECT_NE(session_.runs[0].digest, alone.digest) << "it says that there was another";
+  note(runViews(session_, first()));
   EXPECT_EQ(session_.runs[1].status, "too_few_matches");
-  EXPECT_THAT(sessions::togetherText(session_.runs[0].together->views, first()),
+  EXPECT_THAT(togetherText(session_.runs[0].together->views, first()),
               HasSubstr("left out: too few of its templates match edges"));
 }
 
 TEST_F(ViewsRunTest, FileWithoutViews_IsRead) {
   run(first());
-  sessions::writeSessionFile(file(), session_);
-  std::string text = folder_.read("s.boresight.json");
-  EXPECT_THAT(text, HasSubstr("\"together\""));
   for (RunRecord& item : session_.runs) item.together.reset();
-  sessions::writeSessionFile(file(), session_);
-  text = folder_.read("s.boresight.json");
-  EXPECT_THAT(text, Not(HasSubstr("\"together\"")));
-  const Session old = sessions::readSessionFile(file()).session;
+  writeSessionFile(file(), session_);
+  EXPECT_THAT(folder_.read("s.boresight.json"), Not(HasSubstr("\"together\"")));
+  const Session old = readSessionFile(file()).session;
   EXPECT_EQ(old, session_);
-  EXPECT_TRUE(sessions::loadSnapshot(old.runs[0]).views.empty());
+  EXPECT_TRUE(loadSnapshot(old.runs[0]).views.empty());
   // A record without a reviewer is refused.
-  session_.runs[0].together =
-      sessions::TogetherRecord{{{first(), "converged"}}, std::string(64, 'a')};
-  sessions::writeSessionFile(file(), session_);
-  EXPECT_THAT(folder_.message([&] { (void)sessions::readSessionFile(file()); }),
+  session_.runs[0].together = TogetherRecord{{{first(), "converged"}}, std::string(64, 'a')};
+  writeSessionFile(file(), session_);
+  EXPECT_THAT(folder_.message([&] { (void)readSessionFile(file()); }),
               HasSubstr("views: has fewer than two"));
 }
 
 TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
-  EXPECT_THAT(sessions::whyAlone(session_, first()), IsEmpty());
-  EXPECT_THAT(sessions::whyAlone(withoutRigLink(session_, second()), first()),
-              HasSubstr("has no rig"));
-  EXPECT_THAT(sessions::whyAlone(withoutCase(session_, second()), first()),
+  EXPECT_THAT(whyAlone(session_, first()), IsEmpty());
+  EXPECT_THAT(whyAlone(withoutRigLink(session_, second()), first()), HasSubstr("has no rig"));
+  EXPECT_THAT(whyAlone(withoutCase(session_, second()), first()),
               HasSubstr("no other view of rig"));
-  SessionCase coarser = *session_.cases[1];
-  coarser.parts[0].sha256 = std::string(64, 'a');
-  EXPECT_THAT(sessions::whyAlone(withCase(session_, coarser), first()),
-              HasSubstr("has another station"));
-  SessionCase elsewhere = *session_.cases[1];
-  elsewhere.parts[0].source.mesh = "/copy/of/the.ply";
-  EXPECT_THAT(sessions::whyAlone(withCase(session_, elsewhere), first()), IsEmpty());
+  SessionCase other = *session_.cases[1];
+  other.parts[0].source.mesh = "/copy/of/the.ply";
+  EXPECT_THAT(whyAlone(withCase(session_, other), first()), IsEmpty());
+  other.parts[0].sha256 = std::string(64, 'a');
+  EXPECT_THAT(whyAlone(withCase(session_, other), first()), HasSubstr("has another station"));
   Session many = session_;
   for (int i = 0; i < 7; ++i) {
     SessionCase session_case = *session_.cases[1];
     session_case.id += std::to_string(i);
     many = withCase(many, session_case);
   }
-  EXPECT_THAT(sessions::whyAlone(many, first()), HasSubstr("has 9 views; at most 8"));
+  EXPECT_THAT(whyAlone(many, first()), HasSubstr("has 9 views; at most 8"));
 }
 
 TEST_F(ViewsRunTest, AStopLeavesItUnderWay) {
   std::stop_source stopped;
   stopped.request_stop();
-  const auto views = sessions::runViews(session_, first(), stopped.get_token());
-  EXPECT_EQ(views[0].status, LocalizationStatus::kRunning);
-  EXPECT_EQ(views[1].status, LocalizationStatus::kRunning);
-  EXPECT_THROW((void)sessions::storeViews(session_, views, file()), std::logic_error);
+  const auto views = runViews(session_, first(), stopped.get_token());
+  for (const LocalizationTrace& view : views) EXPECT_EQ(view.status, LocalizationStatus::kRunning);
+  EXPECT_THROW((void)storeViews(session_, views, file()), std::logic_error);
 }
 
 TEST_F(ViewsRunTest, AHandedPoseOfItIsVerifiedByRunningAllViewsAgain) {
   run(first());
   const std::filesystem::path handed = folder_ / "pose.json";
-  sessions::writeValidatedPose(handed, session_, first());
+  writeValidatedPose(handed, session_, first());
   EXPECT_THAT(folder_.read("pose.json"), HasSubstr("together with " + second()));
-  const sessions::VerifyReport report = sessions::verifyPose(handed, true);
+  const VerifyReport report = verifyPose(handed, true);
   EXPECT_TRUE(report.good());
-  bool said = false;
-  for (const auto& finding : report.findings)
-    said = said || finding.text == "the run together with " + second() + " gives the same digest";
-  EXPECT_TRUE(said);
+  EXPECT_TRUE(std::ranges::any_of(report.findings, [&](const auto& finding) {
+    return finding.text == "the run together with " + second() + " gives the same digest";
+  }));
 }
 
 TEST_F(ViewsRunTest, AHandedPoseTakesTheRunOfTheOtherCameraAlong) {
   for (const std::string& id : {second(), first()})
-    session_ = withRun(session_, storeRun(session_, id, sessions::runCase(session_, id), file()));
+    session_ = withRun(session_, storeRun(session_, id, runCase(session_, id), file()));
   const std::filesystem::path handed = folder_ / "pose.json";
-  sessions::writeValidatedPose(handed, session_, first());
+  writeValidatedPose(handed, session_, first());
   std::filesystem::remove_all(folder_ / "s.boresight.runs");
-  const sessions::VerifyReport report = sessions::verifyPose(handed, true);
+  const VerifyReport report = verifyPose(handed, true);
   for (const auto& finding : report.findings)
     EXPECT_TRUE(finding.good) << finding.what << ": " << finding.text;
   EXPECT_THAT(folder_.read("pose.json"), HasSubstr("The pose and " + second() + " differ by"));
-}
-
-TEST_F(ViewsRunTest, AnOutcomeOfAViewThatIsStatedOtherwiseIsRefused) {
-  run(first());
-  RunRecord forged = session_.runs[0];
-  forged.together->views[1].status = "pnp_failed";
-  EXPECT_THROW((void)sessions::repeatRun(forged, session_, file()), sessions::InputError);
 }
 
 /// Poses that were solved for as one say nothing of each other.
 TEST_F(ViewsRunTest, OtherCamera_IsComparedOnlyByItsOwnRun) {
   run(first());
   const auto witnesses = [this] {
-    return sessions::reviewSubject(session_, sessions::loadCase(*session_.cases[0]),
-                                   sessions::PoseSource::kRun)
+    return reviewSubject(session_, loadCase(*session_.cases[0]), PoseSource::kRun)
         .other_cameras.size();
   };
   EXPECT_EQ(witnesses(), 0u);
-  const LocalizationTrace alone = sessions::runCase(session_, second());
-  session_ = withRun(session_, sessions::storeRun(session_, second(), alone, file()));
+  const LocalizationTrace alone = runCase(session_, second());
+  session_ = withRun(session_, storeRun(session_, second(), alone, file()));
   EXPECT_EQ(witnesses(), 1u);
   run(first());
   EXPECT_EQ(witnesses(), 1u) << "a later run of both takes nothing away";

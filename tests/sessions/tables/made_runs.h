@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sessions/evaluation/run_result.h"
+#include "sessions/tables/table.h"
 
 namespace boresight::test {
 
@@ -18,18 +19,25 @@ inline sessions::RunResult madeRun(const std::string& case_id, const std::string
   run.method = method;
   run.status = completed ? "converged" : "pnp_failed";
   run.completed = completed;
-  run.error = sessions::PoseError{};
-  run.error->normal_mm = normal_mm;
-  run.error->lateral_mm = lateral_mm;
-  run.error->rotation_mrad = rotation_mrad;
-  run.seed_error = sessions::PoseError{};
-  run.seed_error->normal_mm = 3.0;
-  run.seed_error->lateral_mm = 4.0;
-  run.seed_error->geodesic_mrad = 20.0;
+  run.error = {normal_mm, lateral_mm, rotation_mrad, 0.0, 0.0, std::nullopt};
+  run.seed_error = {3.0, 4.0, 0.0, 0.0, 20.0, std::nullopt};
   run.requirement = sessions::Requirement{0.4, 0.4, 0.25, std::nullopt};
   run.digest = case_id + method;
   sessions::judge(false, run);
   return run;
+}
+
+/// A run without the truth of its case.
+inline sessions::RunResult blindRun(const std::string& case_id) {
+  sessions::RunResult run = madeRun(case_id, "whs");
+  run.error.reset();
+  run.seed_error.reset();
+  run.success.reset();
+  return run;
+}
+
+inline std::string csvOf(const sessions::Table& table) {
+  return tableText(table, sessions::TableFormat::kCsv);
 }
 
 inline std::vector<const sessions::RunResult*> pointersTo(

@@ -7,11 +7,14 @@
 #include "sessions/tables/strata_table.h"
 #include "tests/sessions/tables/made_runs.h"
 #include "tests/support/matchers.h"
+#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
+
+std::string textOf(const Table& table) { return tableText(table, TableFormat::kText); }
 
 /// By hand: NCC completes 3 of 4, of which one is beyond the lateral, one beyond the rotation.
 std::vector<RunResult> runsOfTwoMethods() {
@@ -40,11 +43,10 @@ TEST(MethodFigures, AreThoseOfTheRuns) {
   EXPECT_EQ(ncc.false_positives.count, 2);
   EXPECT_DOUBLE_EQ(*ncc.false_positives.percent(), 50.0);
   EXPECT_EQ(ncc.gross_false_positives, 0);
-  const Statistics& normal_mm = ncc.error[0];
-  EXPECT_EQ(normal_mm.count, 3);
-  EXPECT_NEAR(normal_mm.mean, 0.0, 1e-12);
-  EXPECT_NEAR(normal_mm.deviation, std::sqrt((0.01 + 0.09 + 0.04) / 3.0), 1e-12);
-  EXPECT_NEAR(normal_mm.maximum, 0.3, 1e-12);
+  EXPECT_EQ(ncc.error[0].count, 3);
+  EXPECT_NEAR(ncc.error[0].mean, 0.0, 1e-12);
+  EXPECT_NEAR(ncc.error[0].deviation, std::sqrt((0.01 + 0.09 + 0.04) / 3.0), 1e-12);
+  EXPECT_NEAR(ncc.error[0].maximum, 0.3, 1e-12);
   EXPECT_NEAR(ncc.error[1].mean, 0.4, 1e-12);
   EXPECT_NEAR(ncc.error[2].maximum, 5.0, 1e-12);
   EXPECT_EQ(ncc.error[3].count, 0) << "no run has a projection error";
@@ -64,6 +66,15 @@ TEST(MethodFigures, KeepStationsAndRangesApartAndLeaveOutRefusedInputs) {
   for (const MethodFigures& row : methodFigures(runs))
     order += row.station + (row.far ? "-far " : " ") + row.method + std::to_string(row.runs) + ", ";
   EXPECT_EQ(order, "bc seed1, bc whs1, bc-far seed1, bc-far whs1, os seed1, os whs1, ");
+  EXPECT_THAT(textOf(summaryTable(runs)), HasSubstr("1 runs could not start"));
+}
+
+TEST(MethodFigures, CountGrossFalsePositivesBeyondThreeTimesTheRequirement) {
+  const std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.5, 0.1, 0.5),
+                                       madeRun("bc-2", "whs", true, -1.5, 0.1, 0.5)};
+  const MethodFigures figures = methodFigures(runs).back();
+  EXPECT_EQ(figures.false_positives.count, 2);
+  EXPECT_EQ(figures.gross_false_positives, 1);
 }
 
 TEST(MethodFigures, StateBoundsOfClopperAndPearson) {
@@ -119,30 +130,22 @@ TEST(Median, IsTheMiddle) {
 }
 
 TEST(ErrorTable, ShowsThePapersRowsWithACautionWhenAsked) {
-  const std::string without = tableText(errorTable(runsOfTwoMethods(), false), TableFormat::kText);
-  EXPECT_THAT(without, Not(HasSubstr("paper")));
-  const std::string with = tableText(errorTable(runsOfTwoMethods(), true), TableFormat::kText);
-  EXPECT_THAT(with, HasSubstr("whs (paper)"));
-  EXPECT_THAT(with, HasSubstr("0.083 / 0.036 / 0.232"));
-  EXPECT_THAT(with, HasSubstr("compare errors, not success"));
-  EXPECT_THAT(with, HasSubstr("10.1109/LRA.2025.3614045"));
-  EXPECT_EQ(with.find("0.167 / 0.075"), std::string::npos) << "no OS among ours, none of theirs";
+  EXPECT_THAT(textOf(errorTable(runsOfTwoMethods(), false)), Not(HasSubstr("paper")));
+  EXPECT_THAT(textOf(errorTable(runsOfTwoMethods(), true)),
+              AllOf(HasSubstr("whs (paper)"), HasSubstr("0.083 / 0.036 / 0.232"),
+                    HasSubstr("compare errors, not success"), HasSubstr("10.1109/LRA.2025.3614045"),
+                    Not(HasSubstr("0.167 / 0.075"))))
+      << "no OS among ours, none of theirs";
+  // The bounds are those of 2000 runs; without failure: 0.05^(1 / 2000) = 0.998503.
+  EXPECT_THAT(test::csvOf(errorTable(runsOfTwoMethods(), true)),
+              testing::ContainsRegex("whs \\(paper\\),2000,2000,100,99\\.850[0-9]*,100,"));
 }
 
 TEST(SuccessTable, ShowsThePapersFarRunsAxisByAxis) {
-  const std::string csv = tableText(successTable(runsOfTwoMethods(), true), TableFormat::kCsv);
-  EXPECT_THAT(csv, HasSubstr("Mars BC far 1.23 m,,loftr-r (paper),3,100,"));
-  EXPECT_THAT(csv, HasSubstr(",66.7,100,0,\r\n"));
-  EXPECT_THAT(csv, HasSubstr(",100,100,0,\r\n"));
+  EXPECT_THAT(test::csvOf(successTable(runsOfTwoMethods(), true)),
+              AllOf(HasSubstr("Mars BC far 1.23 m,,loftr-r (paper),3,100,"),
+                    HasSubstr(",66.7,100,0,\r\n"), HasSubstr(",100,100,0,\r\n")));
 }
-
-TEST(ErrorTable, GivesThePapersSharesTheBoundsOf2000Runs) {
-  const std::string csv = tableText(errorTable(runsOfTwoMethods(), true), TableFormat::kCsv);
-  // Without failure: 0.05^(1 / 2000) = 0.998503.
-  EXPECT_THAT(csv, testing::ContainsRegex("whs \\(paper\\),2000,2000,100,99\\.850[0-9]*,100,"));
-}
-
-std::string textOf(const Table& table) { return tableText(table, TableFormat::kText); }
 
 TEST(SummaryTable, AddsUpTheStationsOfAMethod) {
   std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.1, 0.1, 0.5),
@@ -155,25 +158,10 @@ TEST(SummaryTable, AddsUpTheStationsOfAMethod) {
   EXPECT_THAT(textOf(summaryTable(std::span(runs).first(1))), Not(HasSubstr("\nall")));
 }
 
-TEST(SummaryTable, CountsGrossFalsePositivesAndRefusedInputs) {
-  std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.5, 0.1, 0.5),
-                                 madeRun("bc-2", "whs", true, -1.5, 0.1, 0.5),
-                                 madeRun("bc-3", "whs", false)};
-  runs[2].status = "input_error";
-  const MethodFigures figures = methodFigures(runs).back();
-  EXPECT_EQ(figures.runs, 2);
-  EXPECT_EQ(figures.false_positives.count, 2);
-  EXPECT_EQ(figures.gross_false_positives, 1);
-  EXPECT_THAT(textOf(summaryTable(runs)), HasSubstr("1 runs could not start"));
-}
-
 TEST(SummaryTable, WithoutTruth_LeavesSuccessAndErrorsOpen) {
-  RunResult blind = madeRun("bc-1", "whs");
-  blind.error.reset();
-  blind.seed_error.reset();
-  blind.success.reset();
-  const std::string table = textOf(summaryTable({&blind, 1}));
-  EXPECT_THAT(table, AllOf(HasSubstr("100.0"), Not(HasSubstr("0.000"))));
+  const RunResult blind = test::blindRun("bc-1");
+  EXPECT_THAT(textOf(summaryTable({&blind, 1})),
+              AllOf(HasSubstr("100.0"), Not(HasSubstr("0.000"))));
 }
 
 TEST(ToleranceTable, GrowsWithTheTolerance) {
@@ -181,8 +169,7 @@ TEST(ToleranceTable, GrowsWithTheTolerance) {
       madeRun("bc-1", "whs", true, 0.03), madeRun("bc-2", "whs", true, 0.3),
       madeRun("bc-3", "whs", true, 0.7), madeRun("bc-4", "whs", false)};
   // 0.4 mm times 0.1, 0.25, 0.5, 1, 2, 3
-  EXPECT_THAT(tableText(toleranceTable(runs), TableFormat::kCsv),
-              HasSubstr("bc,near,whs,25,25,25,50,75,75"));
+  EXPECT_THAT(test::csvOf(toleranceTable(runs)), HasSubstr("bc,near,whs,25,25,25,50,75,75"));
 }
 
 TEST(FailureList, NamesRunsThatWereNotSuccessful) {
@@ -203,11 +190,99 @@ TEST(Tables, HaveAsManyCellsAsColumns) {
           flightTable({}, paper)})
       for (const auto& row : table.rows) {
         ASSERT_EQ(row.size(), table.columns.size()) << table.name;
-        for (std::size_t i = 0; i < row.size(); ++i) {
-          const bool text_of_parts = row[i].values.empty() && !table.columns[i].parts.empty();
-          EXPECT_FALSE(text_of_parts) << table.name << ": CSV would lose columns";
-        }
+        for (std::size_t i = 0; i < row.size(); ++i)
+          EXPECT_FALSE(row[i].values.empty() && !table.columns[i].parts.empty())
+              << table.name << ": CSV would lose columns";
       }
+}
+
+RunResult taggedRun(const std::string& case_id, bool completed, std::vector<std::string> tags,
+                    double distance_m) {
+  RunResult run = madeRun(case_id, "whs", completed);
+  run.tags = std::move(tags);
+  run.camera_from_station_seed.translation_m = {0.0, 0.0, distance_m};
+  return run;
+}
+
+TEST(StrataTable, CountsRunsByTagAndByDistance) {
+  const std::vector<RunResult> runs = {
+      taggedRun("bc-1", true, {"sun_low"}, 0.40),
+      taggedRun("bc-2", false, {"sun_low"}, 0.41),
+      taggedRun("bc-3", true, {"sun_high"}, 0.35),
+      taggedRun("bc-4", true, {"sun_high", "hard", "hard_dusty"}, 0.36),
+      taggedRun("bc-5", true, {"sun_high"}, 0.50),
+      taggedRun("bc-6", false, {"sun_high"}, 0.51)};
+  const std::string csv = test::csvOf(strataTable(runs));
+  EXPECT_THAT(csv, AllOf(HasSubstr("sun,low,2,2,50,"), HasSubstr("sun,high,4,4,75,"),
+                         HasSubstr("hard,dusty,1,1,100,"), HasSubstr("hard,none,5,5,60,"),
+                         HasSubstr("distance,0.350 to 0.360 m,2,2,100,"),
+                         HasSubstr("distance,0.500 to 0.510 m,2,2,50,"), Not(HasSubstr("sleeve"))));
+}
+
+TEST(StrataTable, KeepsStationsAndMethodsApart) {
+  std::vector<RunResult> runs = {
+      taggedRun("bc-1", true, {"sun_low"}, 0.4), taggedRun("bc-2", true, {"sun_high"}, 0.4),
+      taggedRun("os-1", true, {"sun_low"}, 0.4), taggedRun("os-2", false, {"sun_high"}, 0.4)};
+  runs[3].method = "ncc";
+  const std::string csv = test::csvOf(strataTable(runs));
+  EXPECT_THAT(csv, HasSubstr("bc,near,whs,sun,low,1,1,100"));
+  EXPECT_THAT(csv, Not(HasSubstr("os,near,whs,sun"))) << "one group is no stratum";
+}
+
+TEST(DemonstrationTable, StatesRunsNeededAndMissing) {
+  std::vector<RunResult> runs;
+  for (int i = 0; i < 60; ++i)
+    runs.push_back(madeRun("bc-" + std::to_string(i), "whs", true, i == 7 ? 5.0 : 0.0));
+  for (int i = 0; i < 59; ++i) runs.push_back(madeRun("os-" + std::to_string(i), "whs"));
+  runs.push_back(madeRun("tu-1", "whs"));
+  runs.back().success.reset();
+  const std::string csv = test::csvOf(demonstrationTable(runs, 0.95));
+  // Acceptance sampling: 59 without failure, 93 with one.
+  EXPECT_THAT(csv, AllOf(HasSubstr("bc,near,whs,60,1,"), HasSubstr(",95,93,33"),
+                         HasSubstr("os,near,whs,59,0,"), HasSubstr(",95,59,0")));
+  EXPECT_THAT(csv, Not(HasSubstr("tu,"))) << "not judged";
+}
+
+InstructionCount countOf(const std::string& method, const std::string& station,
+                         double minutes_of_matching) {
+  InstructionCount count;
+  count.method = method;
+  count.station = station;
+  count.case_id = station + "-1";
+  count.matching = 12e9 * minutes_of_matching;  // 200 MHz for a minute
+  return count;
+}
+
+TEST(FlightTable, AddsUpTheMeansOfStations) {
+  const std::vector<InstructionCount> counts = {
+      countOf("whs", "bc", 1.0), countOf("whs", "bc", 3.0), countOf("whs", "os", 5.0),
+      countOf("ncc", "os", 0.5)};
+  const std::string csv = tableText(flightTable(counts, false), TableFormat::kCsv);
+  EXPECT_THAT(csv, HasSubstr("whs,bc + os,3,0,0,0,7,0,0,7"));
+  EXPECT_THAT(csv, HasSubstr("ncc,os,1,0,0,0,0.5,0,0,0.5"));
+  EXPECT_LT(csv.find("ncc"), csv.find("whs")) << "in the paper's order";
+}
+
+TEST(FlightTable, ShowsThePapersRowsWhenAsked) {
+  const std::string text = tableText(flightTable({}, true), TableFormat::kText);
+  EXPECT_THAT(text, HasSubstr("whs (paper)"));
+  EXPECT_THAT(text, HasSubstr("21.330"));
+  EXPECT_THAT(tableText(flightTable({}, false), TableFormat::kText), Not(HasSubstr("(paper)")));
+}
+
+TEST(InstructionCounts, AreReadAndRefusedWithTheirPlace) {
+  const test::TemporaryFolder folder;
+  const auto read = [&](const std::string& rendering) {
+    return readInstructionCounts(
+        folder.write("counts.json", R"({"format": "boresight-instructions", "version": 1, "runs": [
+      {"method": "whs paper", "station": "bc", "case": "bc-1", "initialization": 1, "search": 2,
+       "rendering": )" + rendering + R"(, "matching": 4, "pose": 5, "refinement": 6}]})"));
+  };
+  const std::vector<InstructionCount> counts = read("3");
+  ASSERT_EQ(counts.size(), 1u);
+  EXPECT_EQ(counts[0].method, "whs paper");
+  EXPECT_DOUBLE_EQ(counts[0].total(), 21.0);
+  EXPECT_THAT(folder.message([&] { read("-3"); }), HasSubstr("runs[0].rendering"));
 }
 
 }  // namespace

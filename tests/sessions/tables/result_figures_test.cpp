@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "sessions/tables/error_strips.h"
 #include "tests/sessions/tables/made_runs.h"
 #include "tests/sessions/tables/pixels_like.h"
 #include "tests/support/matchers.h"
@@ -17,8 +18,6 @@ namespace {
 
 using Point = std::array<double, 2>;
 using test::madeRun;
-
-constexpr int kFoot_px = 110;
 
 /// Two methods that differ by a factor in everything, so that neither hides the other.
 std::vector<RunResult> manyRuns() {
@@ -35,20 +34,17 @@ std::vector<RunResult> manyRuns() {
   return runs;
 }
 
-std::string begin(const Figure& figure, std::size_t length) {
-  return {figure.bytes.begin(), figure.bytes.begin() + static_cast<std::ptrdiff_t>(length)};
-}
-
 TEST(ResultFigures, AreFilesOfEachFormat) {
-  for (const Figure& figure : resultFigures(manyRuns(), CanvasFormat::kPdf))
-    EXPECT_EQ(begin(figure, 5), "%PDF-") << figure.name;
-  for (const Figure& figure : resultFigures(manyRuns(), CanvasFormat::kSvg))
-    EXPECT_EQ(begin(figure, 5), "<?xml") << figure.name;
+  for (const auto& [format, begin] :
+       {std::pair{CanvasFormat::kPdf, "%PDF-"}, {CanvasFormat::kSvg, "<?xml"}})
+    for (const Figure& figure : resultFigures(manyRuns(), format))
+      EXPECT_EQ(std::string(figure.bytes.begin(), figure.bytes.begin() + 5), begin) << figure.name;
 }
 
 TEST(ResultFigures, ShowEveryMethodInItsColour) {
   for (const Figure& figure : resultFigures(manyRuns(), CanvasFormat::kPng)) {
     const cv::Mat whole = cv::imdecode(figure.bytes, cv::IMREAD_COLOR);
+    constexpr int kFoot_px = 110;
     ASSERT_GT(whole.rows, 2 * kFoot_px) << figure.name;
     const cv::Mat image = whole.rowRange(0, whole.rows - kFoot_px);  // without the names
     EXPECT_EQ(image.at<cv::Vec3b>(2, 2), cv::Vec3b(255, 255, 255)) << "on white";
@@ -58,12 +54,7 @@ TEST(ResultFigures, ShowEveryMethodInItsColour) {
 }
 
 TEST(ResultFigures, StandRunsWithoutTruth) {
-  std::vector<RunResult> runs = manyRuns();
-  for (RunResult& run : runs) {
-    run.error.reset();
-    run.seed_error.reset();
-    run.success.reset();
-  }
+  const std::vector<RunResult> runs(30, test::blindRun("bc-1"));
   EXPECT_EQ(resultFigures(runs, CanvasFormat::kPdf).size(), 4u);
 }
 
@@ -88,10 +79,11 @@ TEST(SuccessAgainstTolerance, CountsCompletedRunsWithinEachMultiple) {
   EXPECT_TRUE(successAgainstTolerance(test::pointersTo({blind}), factors).empty());
 }
 
-TEST(SeedMeasure, IsDistanceOrAngle) {
-  const RunResult run = madeRun("bc-1", "whs");
-  EXPECT_DOUBLE_EQ(*seedMeasure(run, SeedMeasure::kDistance_mm), 5.0);
-  EXPECT_DOUBLE_EQ(*seedMeasure(run, SeedMeasure::kAngle_mrad), 20.0);
+TEST(GeometricSteps, HaveOneRatio) {
+  const std::vector<double> steps = geometricSteps(0.01, 100.0, 5);
+  ASSERT_EQ(steps.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(steps[i], std::pow(10.0, static_cast<double>(i) - 2.0), 1e-12);
 }
 
 TEST(SuccessAgainstSeed, PutsRunsIntoBinsOfEqualSizeByHowFarTheyBegan) {
@@ -105,6 +97,8 @@ TEST(SuccessAgainstSeed, PutsRunsIntoBinsOfEqualSizeByHowFarTheyBegan) {
   EXPECT_THAT(successAgainstSeed(test::pointersTo(runs), SeedMeasure::kDistance_mm, 3),
               ElementsAre(Point{5.5, 0.0}, Point{7.5, 100.0}, Point{9.5, 100.0}));
   EXPECT_EQ(successAgainstSeed(test::pointersTo(runs), SeedMeasure::kDistance_mm, 100).size(), 6u);
+  EXPECT_DOUBLE_EQ(*seedMeasure(madeRun("bc-1", "whs"), SeedMeasure::kDistance_mm), 5.0);
+  EXPECT_DOUBLE_EQ(*seedMeasure(madeRun("bc-1", "whs"), SeedMeasure::kAngle_mrad), 20.0);
 }
 
 TEST(TimeAgainstError, TakesCompletedRuns) {
@@ -115,11 +109,39 @@ TEST(TimeAgainstError, TakesCompletedRuns) {
   EXPECT_THAT(timeAgainstError(test::pointersTo(runs)), ElementsAre(Point{2.0, 0.3}));
 }
 
-TEST(GeometricSteps, HaveOneRatio) {
-  const std::vector<double> steps = geometricSteps(0.01, 100.0, 5);
-  ASSERT_EQ(steps.size(), 5u);
-  for (int i = 0; i < 5; ++i)
-    EXPECT_NEAR(steps[static_cast<std::size_t>(i)], std::pow(10.0, i - 2), 1e-12);
+TEST(ErrorStrip, FailedRunsKeepTheErrorsOfTheirSeeds) {
+  RunResult blind = madeRun("bc-4", "whs");
+  blind.error.reset();
+  const std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, -0.2),
+                                       madeRun("bc-2", "whs", false, 9.0),
+                                       madeRun("bc-3", "whs", true, 0.1), blind};
+  const ErrorStrip strip = errorStrip(test::pointersTo(runs), &PoseError::normal_mm);
+  EXPECT_THAT(strip.completed, ElementsAre(-0.2, 0.1));
+  EXPECT_THAT(strip.failed, ElementsAre(3.0)) << "as made_runs.h states its seeds";
+}
+
+TEST(SignedDecades, IsOddLinearNearZeroAndLogarithmicBeyond) {
+  EXPECT_EQ(signedDecades(0.0, 0.01), 0.0);
+  EXPECT_DOUBLE_EQ(signedDecades(-3.0, 0.01), -signedDecades(3.0, 0.01));
+  EXPECT_NEAR(signedDecades(1e-6, 0.01) / signedDecades(5e-7, 0.01), 2.0, 1e-3);
+  EXPECT_NEAR(signedDecades(1000.0, 0.01) - signedDecades(100.0, 0.01), 1.0, 1e-3);
+}
+
+TEST(ErrorStripsFigure, ShowsSeedsCompletedAndFailedRunsAndIsEmptyWithoutTruth) {
+  std::vector<RunResult> runs;
+  for (int i = 0; i < 40; ++i)
+    runs.push_back(madeRun("bc-" + std::to_string(i), "ncc", i % 2 == 0, 0.01 * i, 0.02 * i));
+  const Figure figure = errorStripsFigure(runs, CanvasFormat::kPng);
+  EXPECT_EQ(figure.name, kStripsFigure);
+  const cv::Mat image = cv::imdecode(figure.bytes, cv::IMREAD_COLOR);
+  ASSERT_FALSE(image.empty());
+  EXPECT_GT(test::pixelsLike(image, {178, 115, 0}), 20) << "seeds, blue";
+  EXPECT_GT(test::pixelsLike(image, {115, 158, 0}), 20) << "completed, green";
+  EXPECT_GT(test::pixelsLike(image, {26, 38, 204}), 5) << "failed, red";
+  RunResult blind = test::blindRun("bc-1");
+  blind.requirement.reset();
+  const Figure empty = errorStripsFigure({&blind, 1}, CanvasFormat::kPdf);
+  EXPECT_EQ(std::string(empty.bytes.begin(), empty.bytes.begin() + 5), "%PDF-");
 }
 
 }  // namespace

@@ -45,17 +45,14 @@ TEST_F(ReadResultsSet, TakesFilesTogetherAndFilters) {
   EXPECT_EQ(readResultsSet({a, b}, {.stations = {"bc"}, .methods = {"whs"}}).runs.size(), 1u);
 }
 
-TEST_F(ReadResultsSet, NamesVariantsOfAMethodApart) {
-  const auto a = write("a", {madeRun("bc-1", "whs")});
-  const auto b = write("b", {madeRun("bc-1", "whs")}, "paper");
-  EXPECT_THAT(readResultsSet({a, b}).methodNames(), ElementsAre("whs default", "whs paper"));
-}
-
-TEST_F(ReadResultsSet, CountsNoRunTwice) {
-  const auto a = write("a", {madeRun("bc-1", "whs")});
-  const auto b = write("b", {madeRun("bc-1", "whs")});
+TEST_F(ReadResultsSet, CountsNoRunTwiceAndNamesVariantsOfAMethodApart) {
+  const std::vector<RunResult> run = {madeRun("bc-1", "whs")};
+  const auto a = write("a", run);
+  const auto b = write("b", run);
   EXPECT_THAT(folder_.message([&] { (void)readResultsSet({a, b}); }), HasSubstr("it is also in"));
-  const auto c = write("c", {madeRun("bc-1", "whs")}, "default", "e");
+  const auto paper = write("paper", run, "paper");
+  EXPECT_THAT(readResultsSet({a, paper}).methodNames(), ElementsAre("whs default", "whs paper"));
+  const auto c = write("c", run, "default", "e");
   EXPECT_EQ(readResultsSet({a, c}).runs.size(), 2u) << "the case of another dataset is another";
 }
 

@@ -17,7 +17,7 @@ Table twoRows() {
       {"A note."}};
 }
 
-TEST(TableText, IsReadByPeople) {
+TEST(TableText, IsReadByPeopleAndPrograms) {
   EXPECT_EQ(tableText(twoRows(), TableFormat::kText),
             "Some 100 % of a_b\n"
             "name    error mm mean / max  share %\n"
@@ -25,9 +25,6 @@ TEST(TableText, IsReadByPeople) {
             "a, \"b\"         0.12 / -1.00     50.0\n"
             "c_d                       -        -\n"
             "A note.\n");
-}
-
-TEST(TableText, IsReadByPrograms) {
   EXPECT_EQ(tableText(twoRows(), TableFormat::kCsv),
             "name,error mm mean,error mm max,share %\r\n"
             "\"a, \"\"b\"\"\",0.125,-1,50\r\n"
@@ -35,11 +32,10 @@ TEST(TableText, IsReadByPrograms) {
 }
 
 TEST(TableText, IsSetByLatex) {
-  const std::string text = tableText(twoRows(), TableFormat::kLatex);
-  EXPECT_THAT(text, HasSubstr("\\caption{Some 100 \\% of a\\_b}"));
-  EXPECT_THAT(text, HasSubstr("name & error mm mean / max & share \\% \\\\"));
-  EXPECT_THAT(text, HasSubstr("c\\_d & - & - \\\\"));
-  EXPECT_THAT(text, HasSubstr("{lrr}"));
+  EXPECT_THAT(tableText(twoRows(), TableFormat::kLatex),
+              AllOf(HasSubstr("\\caption{Some 100 \\% of a\\_b}"),
+                    HasSubstr("name & error mm mean / max & share \\% \\\\"),
+                    HasSubstr("c\\_d & - & - \\\\"), HasSubstr("{lrr}")));
 }
 
 }  // namespace

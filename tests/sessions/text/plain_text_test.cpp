@@ -10,12 +10,6 @@
 namespace boresight::sessions {
 namespace {
 
-TEST(PlainText, KeepsWhatIsShown) {
-  const std::string text = "Sol 12, \xc3\xa9\xc4\x9b \xe2\x82\xac \xf0\x9f\x9b\xb0  50 %";
-  EXPECT_EQ(plainText(text), text);
-  EXPECT_EQ(plainText(""), "");
-}
-
 /// Text in place of whose other characters blanks are shown.
 TEST(PlainText, HasBlanksForWhatIsNotShown) {
   const struct {
@@ -45,14 +39,13 @@ TEST(PlainText, HasBlanksForWhatIsNotShown) {
                {"\xe2\x80", "  ", "cut"},
                {"\xff\xfe", "  ", "no UTF-8"}};
   for (const auto& each : cases) EXPECT_EQ(plainText(each.text), each.shown) << each.reason;
+  const std::string text = "Sol 12, \xc3\xa9\xc4\x9b \xe2\x82\xac \xf0\x9f\x9b\xb0  50 %";
+  for (const std::string& shown : {text, std::string()}) EXPECT_EQ(plainText(shown), shown);
 }
 
 TEST(OneLine, MergesBlanks) {
   EXPECT_EQ(oneLine("\n a \x1b\x1b b\r\n"), "a b");
   EXPECT_EQ(oneLine(" \n"), "");
-}
-
-TEST(InputErrors, AreOneLineOfPlainText) {
   EXPECT_STREQ(InputError("a\n.json", "id",
                           "'\xc2\x9b"
                           "2J' is \x1b[1m bad")

@@ -12,51 +12,48 @@
 namespace boresight::sessions {
 namespace {
 
-HypothesisSummary hypothesis(const Pose& pose, int inliers, bool solved) {
-  HypothesisSummary hypothesis_summary;
-  hypothesis_summary.camera_from_station = pose;
-  hypothesis_summary.inliers = inliers;
-  hypothesis_summary.matches = 20;
-  hypothesis_summary.solved = solved;
-  return hypothesis_summary;
-}
-
 /// Two iterations of rolled hypotheses, and two plain ones.
-LocalizationTrace runWith(Random& random) {
+struct Alternatives : testing::Test {
+  Random random = test::randomFor("Alternatives");
   LocalizationTrace run;
-  for (int i = 0; i < 4; ++i) {
-    IterationTrace iteration;
-    iteration.index = i;
-    iteration.camera_from_station_before = test::randomPose(random);
-    iteration.camera_from_station = test::randomPose(random);
-    const int count = i == 0 ? 3 : i == 1 ? 2 : 1;
-    for (int k = 0; k < count; ++k)
-      iteration.hypotheses.push_back(hypothesis(test::randomPose(random), 5 + k, k != 1));
-    iteration.chosen_hypothesis = i == 0 ? 2 : 0;
-    run.iterations.push_back(std::make_shared<const IterationTrace>(iteration));
-  }
-  run.finished = true;
-  run.status = LocalizationStatus::kConverged;
-  run.camera_from_station = run.iterations.back()->camera_from_station;
-  return run;
-}
 
-TEST(Alternatives, RolledHypotheses_AreListedPerIteration) {
-  Random random = test::randomFor("Alternatives 1");
-  const LocalizationTrace run = runWith(random);
+  Alternatives() {
+    for (int i = 0; i < 4; ++i) {
+      IterationTrace iteration;
+      iteration.index = i;
+      iteration.camera_from_station_before = test::randomPose(random);
+      iteration.camera_from_station = test::randomPose(random);
+      const int count = i == 0 ? 3 : i == 1 ? 2 : 1;
+      for (int k = 0; k < count; ++k) {
+        HypothesisSummary& hypothesis = iteration.hypotheses.emplace_back();
+        hypothesis.camera_from_station = test::randomPose(random);
+        hypothesis.inliers = 5 + k;
+        hypothesis.matches = 20;
+        hypothesis.solved = k != 1;
+      }
+      iteration.chosen_hypothesis = i == 0 ? 2 : 0;
+      run.iterations.push_back(std::make_shared<const IterationTrace>(iteration));
+    }
+    run.finished = true;
+    run.status = LocalizationStatus::kConverged;
+    run.camera_from_station = run.iterations.back()->camera_from_station;
+  }
+};
+
+TEST_F(Alternatives, RolledHypotheses_AreListedPerIteration) {
   const std::vector<Alternative> all = alternativesOf(run);
   ASSERT_EQ(all.size(), 5u);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::size_t iteration = i < 3 ? 0 : 1;
     const std::size_t k = i < 3 ? i : i - 3;
     const auto& hypotheses = run.iterations[iteration]->hypotheses;
+    const std::size_t chosen = iteration == 0 ? 2 : 0;
     EXPECT_EQ(all[i].kind, AlternativeKind::kRolled);
     EXPECT_EQ(all[i].iteration, static_cast<int>(iteration));
     EXPECT_EQ(all[i].camera_from_station, hypotheses[k].camera_from_station);
     EXPECT_EQ(all[i].inliers, hypotheses[k].inliers);
-    const Pose& chosen = hypotheses[iteration == 0 ? 2 : 0].camera_from_station;
-    EXPECT_EQ(all[i].camera_from_station_chosen, chosen);
-    EXPECT_EQ(all[i].chosen, k == (iteration == 0 ? 2u : 0u));
+    EXPECT_EQ(all[i].camera_from_station_chosen, hypotheses[chosen].camera_from_station);
+    EXPECT_EQ(all[i].chosen, k == chosen);
     EXPECT_TRUE(std::isnan(all[i].similarity));
   }
   EXPECT_TRUE(std::isnan(all[0].score)) << "rolled hypotheses have none";
@@ -64,9 +61,7 @@ TEST(Alternatives, RolledHypotheses_AreListedPerIteration) {
   EXPECT_TRUE(std::isnan(all[4].apart_m));
 }
 
-TEST(Alternatives, TellHowFarTheyAreApart) {
-  Random random = test::randomFor("Alternatives 2");
-  LocalizationTrace run = runWith(random);
+TEST_F(Alternatives, TellHowFarTheyAreApart) {
   Pose moved = run.camera_from_station;
   moved.rotation = rotationExp({0.0, 0.0, 0.25}) * moved.rotation;
   moved.translation_m += Eigen::Vector3d(0.003, 0.0, 0.004);
@@ -79,9 +74,7 @@ TEST(Alternatives, TellHowFarTheyAreApart) {
 }
 
 /// A run that ends as ambiguous has its seed for a result.
-TEST(Alternatives, OfAnAmbiguousRun_AreComparedWithItsLastIteration) {
-  Random random = test::randomFor("Alternatives 3");
-  LocalizationTrace run = runWith(random);
+TEST_F(Alternatives, OfAnAmbiguousRun_AreComparedWithItsLastIteration) {
   const Pose elsewhere = test::randomPose(random);
   run.competing_poses = {{elsewhere, 0.9, 1.0}, {elsewhere, 0.9, 2.0}};
   run.status = LocalizationStatus::kAmbiguous;
@@ -96,25 +89,18 @@ TEST(Alternatives, OfAnAmbiguousRun_AreComparedWithItsLastIteration) {
   }
 }
 
-std::vector<Alternative> alternativesOf(const LocalizationTrace& run, AlternativeKind kind) {
-  std::vector<Alternative> all = alternativesOf(run);
-  std::erase_if(all, [&](const Alternative& alternative) { return alternative.kind != kind; });
-  return all;
-}
-
-TEST(Alternatives, ComparedPoses_BeginWithTheCompetitorThenByScore) {
-  Random random = test::randomFor("Alternatives 4");
-  LocalizationTrace run = runWith(random);
+TEST_F(Alternatives, ComparedPoses_BeginWithTheCompetitorThenByScore) {
   for (const double score : {1.0, 4.0, 2.0, 3.0}) {
-    PoseHypothesis compared;
+    const auto number = static_cast<std::int32_t>(run.hypotheses.size());
+    PoseHypothesis& compared = run.hypotheses.emplace_back();
     compared.camera_from_station = test::randomPose(random);
     compared.score = score;
-    compared.number = static_cast<std::int32_t>(run.hypotheses.size());
-    run.hypotheses.push_back(compared);
+    compared.number = number;
   }
   run.best_hypothesis = 1;
   run.competitor = 2;
-  const std::vector<Alternative> all = alternativesOf(run, AlternativeKind::kCompared);
+  std::vector<Alternative> all = alternativesOf(run);
+  std::erase_if(all, [](const auto& each) { return each.kind != AlternativeKind::kCompared; });
   ASSERT_EQ(all.size(), 4u);
   const int numbers[] = {3, 2, 4, 1};
   for (std::size_t i = 0; i < 4; ++i) {

@@ -42,28 +42,24 @@ TEST(CloseUps, ShowTheCornersAndHowFarTheirEdgesAreOff) {
   const auto close_ups = closeUps(cameraOver(), rectangle(), kSide_px);
   ASSERT_EQ(close_ups.size(), 4u);
   const Eigen::Vector2d corners[] = {{50, 40}, {350, 40}, {50, 260}, {350, 260}};
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_LT((close_ups[i].center_px - corners[i]).norm(), 0.75 * kSide_px) << close_ups[i].name;
+    EXPECT_EQ(close_ups[i].found_share, 1.0) << close_ups[i].name;
+  }
   EXPECT_EQ(close_ups[0].name, "upper left");
   EXPECT_NEAR(close_ups[0].distance_px, 0.1, 1e-12);
   EXPECT_EQ(close_ups[3].name, "lower right");
   EXPECT_NEAR(close_ups[3].distance_px, 0.7, 1e-12);
 }
 
-TEST(CloseUps, FoundShareIsThatOfThePatch) {
+TEST(CloseUps, LeaveOutWhatWasNotFoundAndStateTheFoundShareOfThePatch) {
   RefinementTrace refinement = rectangle();
-  for (const CloseUp& close_up : closeUps(cameraOver(), refinement, kSide_px))
-    EXPECT_EQ(close_up.found_share, 1.0) << close_up.name;
   for (std::size_t i = 0; i < refinement.samples.size(); ++i)
     if (i / 2 % 4 != 0) refinement.samples[i].gradient = 0.0;
   const auto close_ups = closeUps(cameraOver(), refinement, kSide_px);
   ASSERT_EQ(close_ups.size(), 4u);
   for (const CloseUp& close_up : close_ups)
     EXPECT_NEAR(close_up.found_share, 0.25, 0.1) << close_up.name;
-}
-
-TEST(CloseUps, LeaveOutWhatWasNotFound) {
-  RefinementTrace refinement = rectangle();
   for (EdgeSample& sample : refinement.samples) sample.gradient = 0.0;
   EXPECT_TRUE(closeUps(cameraOver(), refinement, kSide_px).empty());
   refinement.samples.front().gradient = 5.0;

@@ -34,11 +34,9 @@ struct Disc {
 };
 
 Pose tilted(double tilt_rad) {
-  Pose pose;
-  pose.rotation = Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d(0.8, 0.6, 0.0)) *
-                  Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ());
-  pose.translation_m = {0.013, -0.007, 1.0};
-  return pose;
+  return {Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d(0.8, 0.6, 0.0)) *
+              Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()),
+          {0.013, -0.007, 1.0}};
 }
 
 double distance(const Eigen::Vector2d& place, const Eigen::Vector2d& from,

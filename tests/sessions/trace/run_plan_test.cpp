@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/trace/run_plan.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/run/runner.h"
 #include "tests/support/example_case.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 LocalizerOptions withRenderAgain(double render_again_px) {
   LocalizerOptions options;
@@ -54,18 +51,19 @@ TEST(RunPlan, SaysWhyItCannotBeRun) {
   LocalizerOptions fixed;
   fixed.templates.count += 1;
   EXPECT_EQ(planProblem(RunPlan(fixed)), "");
-  EXPECT_THAT(planProblem({LocalizerOptions(), {{2, fixed}}}),
-              HasSubstr("templates.count cannot change during a run"));
-  EXPECT_THAT(planProblem({LocalizerOptions(), {{0, withRenderAgain(2.0)}}}),
-              HasSubstr("iteration 0"));
-  EXPECT_THAT(
-      planProblem({LocalizerOptions(), {{3, withRenderAgain(2.0)}, {3, withRenderAgain(1.0)}}}),
-      HasSubstr("iteration 3"));
-  EXPECT_THAT(planProblem({LocalizerOptions(), {{3, withRenderAgain(-2.0)}}}),
+  const auto problemOf = [](const std::vector<OptionChange>& changes) {
+    return planProblem({LocalizerOptions(), changes});
+  };
+  EXPECT_THAT(problemOf({{2, fixed}}), HasSubstr("templates.count cannot change during a run"));
+  EXPECT_THAT(problemOf({{0, withRenderAgain(2.0)}}), HasSubstr("iteration 0"));
+  EXPECT_THAT(problemOf({{3, withRenderAgain(2.0)}, {3, withRenderAgain(1.0)}}),
+              HasSubstr("iteration 3"));
+  EXPECT_THAT(problemOf({{3, withRenderAgain(-2.0)}}),
               HasSubstr("loop.render_again_px is out of its range"));
-  EXPECT_EQ(
-      planProblem({LocalizerOptions(), {{3, withRenderAgain(2.0)}, {4, withRenderAgain(1.0)}}}),
-      "");
+  EXPECT_EQ(problemOf({{3, withRenderAgain(2.0)}, {4, withRenderAgain(1.0)}}), "");
+  const LocalizationTrace refused = runOf({LocalizerOptions(), {{2, fixed}}});
+  EXPECT_TRUE(refused.finished);
+  EXPECT_EQ(refused.fault, Status::kInvalidOption);
 }
 
 /// A change is made although it changes nothing.
@@ -103,15 +101,6 @@ TEST(RunPlan, HoweverItIsRunTheDigestIsTheSame) {
   while (!run.finished()) run.advance(StepUntil::kStage);
   EXPECT_EQ(run.trace().digest, whole);
   EXPECT_EQ(run.trace().complete(), run.trace().iterations.size());
-}
-
-TEST(RunPlan, OneThatCannotBeRunIsAFault) {
-  LocalizerOptions fixed;
-  fixed.templates.count += 1;
-  const RunPlan plan(LocalizerOptions(), {{2, fixed}});
-  const LocalizationTrace refused = runOf(plan);
-  EXPECT_TRUE(refused.finished);
-  EXPECT_EQ(refused.fault, Status::kInvalidOption);
 }
 
 }  // namespace

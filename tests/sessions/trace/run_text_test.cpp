@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/trace/run_text.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
 #include "sessions/text/text_table.h"
+#include "sessions/trace/acceptance.h"
 #include "sessions/trace/run_headline.h"
-#include "tests/sessions/trace/expect_contained.h"
 #include "tests/support/example_run.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::editIteration;
-using test::expectContained;
-using testing::HasSubstr;
-using testing::Not;
+
+void expectContained(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_THAT(text, HasSubstr(part));
+}
 
 std::shared_ptr<const EdgeMapTrace> edgesOf(std::int32_t count) {
   EdgeMapTrace edges;
@@ -94,7 +95,7 @@ TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
   EXPECT_THAT(explanation(trace), HasSubstr("20.00 deg about z"));
 }
 
-TEST(Explanation, GivesTheShareOfSupportedEdges) {
+TEST(Explanation, GivesTheShareOfSupportedEdgesOrTheFocalLengthThatTheEdgesAskFor) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kNotSupported);
   trace.support.rendered = 200;
   trace.support.covered = 30;
@@ -103,9 +104,12 @@ TEST(Explanation, GivesTheShareOfSupportedEdges) {
   expectContained(explanation(trace),
                   {fixedText(100.0 * trace.support.share(), 1) + " %, needed",
                    "15.0 % of the rendered edges are seen", "20.0 % of the edges seen"});
+  trace = endedWith(LocalizationStatus::kCameraMismatch);
+  trace.focal = {-0.0187, 0.0012, true};
+  expectContained(explanation(trace), {"1.9 % shorter than the camera's", "one sigma 0.12 %"});
 }
 
-TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
+TEST(Explanation, SaysHowFarTheClosestCompetingPoseOrTheNextBestIs) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kAmbiguous);
   CompetingPose near{trace.iterations.back()->camera_from_station, 0.8, 5.5};
   near.camera_from_station.translation_m.x() += 0.02;
@@ -120,27 +124,17 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   trace.competing_poses[1].mirrored = true;
   EXPECT_THAT(explanation(trace),
               HasSubstr("the mirror image of the mesh is more than 1000 times more likely"));
-}
-
-TEST(Explanation, SaysThatAnotherPoseHasAboutTheSameScore) {
-  LocalizationTrace trace = endedWith(LocalizationStatus::kAmbiguous);
-  PoseHypothesis best;
-  best.camera_from_station = trace.iterations.back()->camera_from_station;
-  PoseHypothesis other = best;
-  other.camera_from_station.translation_m.x() += 0.012;
-  trace.hypotheses = {best, other};
+  // Without competing poses, another one that has about the same score.
+  trace.competing_poses.clear();
+  trace.hypotheses.resize(2);
+  trace.hypotheses[0].camera_from_station = trace.iterations.back()->camera_from_station;
+  trace.hypotheses[1] = trace.hypotheses[0];
+  trace.hypotheses[1].camera_from_station.translation_m.x() += 0.012;
   trace.best_hypothesis = 0;
   trace.competitor = 1;
   trace.gap = 0.0625;
-  trace.competing_poses.clear();
   expectContained(explanation(trace),
                   {"another pose, 12.0 mm and 0.00 deg away", "lower by 0.06, needed 0.15"});
-}
-
-TEST(Explanation, SaysWhichFocalLengthTheEdgesAskFor) {
-  LocalizationTrace trace = endedWith(LocalizationStatus::kCameraMismatch);
-  trace.focal = {-0.0187, 0.0012, true};
-  expectContained(explanation(trace), {"1.9 % shorter than the camera's", "one sigma 0.12 %"});
 }
 
 TEST(IterationTable, HasOneLineForEachIteration) {
@@ -173,14 +167,17 @@ TEST(PoseText, LabelsTheQuaternionAndSaysWhereItsSigmasAre) {
               HasSubstr("1 sigma at the rig's origin"));
 }
 
-TEST(RunStatusText, ExplainsARunThatFailed) {
-  const std::string text = runStatusText(endedWith(LocalizationStatus::kTooFewEdges));
-  EXPECT_THAT(text, HasSubstr("Did not converge. Too few salient edges: the render has 7"));
-  EXPECT_TRUE(text.ends_with("."));
-}
-
-TEST(RunStatusText, ConvergedRun_StatesItsEvidence) {
-  LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
+TEST(RunStatusText, SaysHowFarARunIsAndHowItEnded) {
+  LocalizationTrace trace;
+  EXPECT_EQ(runStatusText(trace), "The run has begun.");
+  trace = endedWith(LocalizationStatus::kRunning);
+  EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
+  trace.last_under_way = true;
+  expectContained(runStatusText(trace), {"last complete stage", "render"});
+  EXPECT_THAT(runStatusText(endedWith(LocalizationStatus::kTooFewEdges)),
+              AllOf(HasSubstr("Did not converge. Too few salient edges: the render has 7"),
+                    testing::EndsWith(".")));
+  trace = endedWith(LocalizationStatus::kConverged);
   trace.covariance(3, 3) = 4e-10;  // 0.02 mm
   trace.support.rendered = trace.support.covered = 10;
   trace.support.seen = trace.support.explained = 10;
@@ -190,31 +187,75 @@ TEST(RunStatusText, ConvergedRun_StatesItsEvidence) {
   EXPECT_THAT(runStatusText(trace), Not(HasSubstr("Edge support")));
 }
 
-TEST(RunStatusText, SaysHowFarARunIs) {
-  LocalizationTrace trace;
-  EXPECT_EQ(runStatusText(trace), "The run has begun.");
-  trace = endedWith(LocalizationStatus::kRunning);
-  EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
-  trace.last_under_way = true;
-  expectContained(runStatusText(trace), {"last complete stage", "render"});
-}
-
 TEST(RunStatusText, NamesTheOtherViews) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
   EXPECT_THAT(runStatusText(trace),
-              testing::StartsWith("Together with b (left out: too few of its templates match edges "
-                                  "of the image) and c. Converged in"));
+              StartsWith("Together with b (left out: too few of its templates match edges "
+                         "of the image) and c. Converged in"));
   trace = endedWith(LocalizationStatus::kTooFewMatches);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}};
   trace.own_view = 1;
   EXPECT_THAT(runStatusText(trace),
-              testing::StartsWith("Together with a. This view was left out: too few of"));
+              StartsWith("Together with a. This view was left out: too few of"));
   trace.views[0].status = "pnp_failed";
-  EXPECT_THAT(runStatusText(trace), testing::StartsWith("Together with a. Did not converge. "));
+  EXPECT_THAT(runStatusText(trace), StartsWith("Together with a. Did not converge. "));
   trace.views = {{"a", "running"}, {"b", "running"}};
   trace.finished = false;
   EXPECT_EQ(runStatusText(trace), "Together with a. Iteration 1 is complete.");
+}
+
+TEST(AcceptanceText, SearchedRun_StatesTheProbabilityWithItsParts) {
+  LocalizationTrace run = test::exampleTrace();
+  run.competing_poses.resize(2);
+  run.competing_poses[0].margin_nats = 7.5;
+  run.competing_poses[1].margin_nats = 4.0;
+  expectContained(
+      acceptanceText(run),
+      {"right is " + fixedText(100.0 * run.probability, 1) + " %, needed 50.0 %",
+       "edges show 100 % of the evidence",
+       "differ along " + fixedText(100.0 * run.evidence.region.separatedShare(), 0) + " % of the",
+       "support is " + fixedText(100.0 * run.support.share(), 1) + " %",
+       "comes from " + originText(run.hypotheses[static_cast<std::size_t>(run.best_hypothesis)]),
+       "2 competing poses are similar; the closest is 55 times less likely"});
+  run.competing_poses.resize(1);
+  run.competing_poses[0].margin_nats = -2.5;
+  EXPECT_THAT(acceptanceText(run), HasSubstr("it is 12 times more likely"));
+}
+
+TEST(HasProbability, RunWithoutSearchOrEvidenceOfAnEarlierAttempt_DoesNotCount) {
+  const auto of_seed = test::exampleRunOfSeed();
+  EXPECT_FALSE(hasProbability(*of_seed));
+  EXPECT_THAT(acceptanceText(*of_seed),
+              AllOf(HasSubstr("Edge support is"), Not(HasSubstr("probab"))));
+  LocalizationTrace run = test::exampleTrace();
+  EXPECT_TRUE(hasProbability(run));
+  run.status = LocalizationStatus::kBlurred;
+  EXPECT_TRUE(hasProbability(run));
+  run.status = LocalizationStatus::kPnpFailed;
+  EXPECT_FALSE(hasProbability(run));
+  EXPECT_EQ(acceptanceText(run), "");
+}
+
+TEST(AcceptanceText, ComparedPoses_AreCountedWithTheGapToTheNextBest) {
+  LocalizationTrace run = test::exampleTrace();
+  run.hypotheses.assign(2, PoseHypothesis());
+  run.hypotheses[1].origin = HypothesisOrigin::kRestart;
+  run.hypotheses[1].number = 2;
+  run.best_hypothesis = 1;
+  run.competitor = -1;
+  expectContained(acceptanceText(run),
+                  {"most evidence of 2 compared poses", "restart 3 of the best pose"});
+  EXPECT_THAT(acceptanceText(run), Not(HasSubstr("next best")));
+  run.competitor = 0;
+  run.gap = 0.875;
+  EXPECT_THAT(acceptanceText(run), HasSubstr("lower by a score of 0.88"));
+  run.hypotheses.resize(1);
+  run.hypotheses[0].origin = HypothesisOrigin::kSeed;
+  run.best_hypothesis = 0;
+  run.competitor = -1;
+  EXPECT_THAT(acceptanceText(run), HasSubstr("the only pose found and comes from templates around "
+                                             "the seed"));
 }
 
 }  // namespace

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/trace/scene_render.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "sessions/io/images/image_file.h"
+#include "sessions/trace/overlay.h"
 #include "tests/support/random_pose.h"
+#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
@@ -83,6 +87,80 @@ TEST(SceneRenderer, WithoutFacesOrBeforeItIsCreated_DrawsNothing) {
   RenderTrace render;
   EXPECT_EQ(renderScene(test::makePinhole(64, 64, 100.0), square.view(), atDistance(1.0), render),
             Status::kInvalidMesh);
+}
+
+constexpr int kWidth = 600;
+constexpr int kHeight = 400;
+constexpr std::uint8_t kGray = 90;
+
+/// A square of side 0.2 m in front of a camera that sees it 200 px wide in the image's middle.
+class Overlay : public testing::Test {
+ protected:
+  ColorImage draw(const std::vector<OverlayLayer>& layers) const {
+    return drawOverlay({pixels_.data(), kWidth, kHeight, kWidth}, camera_, square_.view(), layers);
+  }
+  static ColorBgr at(const ColorImage& image, int x, int y) {
+    const auto first = 3 * static_cast<std::size_t>(y * image.width + x);
+    return {image.bgr[first], image.bgr[first + 1], image.bgr[first + 2]};
+  }
+  /// Columns of row 250, below the legend, that have the colour.
+  static std::vector<int> columnsOf(const ColorImage& image, const ColorBgr& color) {
+    std::vector<int> columns;
+    for (int x = 0; x < image.width; ++x)
+      if (at(image, x, 250) == color) columns.push_back(x);
+    return columns;
+  }
+  static Pose shifted(double x_m, double z_m = 1.0) {
+    return {Eigen::Quaterniond::Identity(), {x_m, 0.0, z_m}};
+  }
+
+  const Camera camera_ = test::makePinhole(kWidth, kHeight, 1000.0);
+  const std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(kWidth * kHeight, kGray);
+  const Square square_;
+};
+
+TEST_F(Overlay, DrawsEachPoseInItsColour) {
+  const ColorImage image =
+      draw({{"seed", shifted(0.05), kSeedColor}, {"result", shifted(0.0), kResultColor}});
+  ASSERT_EQ(image.width, kWidth);
+  ASSERT_EQ(image.height, kHeight);
+  // Row 250 crosses the upright sides: of the result at 299.5 +- 100, of the seed 50 px further.
+  const std::vector<int> result = columnsOf(image, kResultColor);
+  const std::vector<int> seed = columnsOf(image, kSeedColor);
+  ASSERT_FALSE(result.empty() || seed.empty());
+  EXPECT_NEAR(result.front(), 199.5, 2.0);
+  EXPECT_NEAR(result.back(), 399.5, 2.0);
+  EXPECT_NEAR(seed.front(), 249.5, 2.0);
+  EXPECT_NEAR(seed.back(), 449.5, 2.0);
+  EXPECT_EQ(at(image, 300, 250), (ColorBgr{kGray, kGray, kGray}));
+}
+
+TEST_F(Overlay, ThinLayer_LeavesTheLayerBelowVisible) {
+  const ColorImage image =
+      draw({{"result", shifted(0.0), kResultColor}, {"truth", shifted(0.0), kTruthColor, true}});
+  const std::vector<int> truth = columnsOf(image, kTruthColor);
+  const std::vector<int> result = columnsOf(image, kResultColor);
+  ASSERT_FALSE(truth.empty() || result.empty());
+  EXPECT_EQ(result.front(), truth.front() - 1);
+  EXPECT_EQ(result.back(), truth.back() + 1);
+}
+
+TEST_F(Overlay, HasALegendOnlyWithLayersAndIsWrittenAsItIs) {
+  EXPECT_THAT(draw({}).bgr, testing::Each(kGray));
+  const ColorImage behind = draw({{"behind", shifted(0.0, -1.0), kSeedColor}});
+  EXPECT_TRUE(columnsOf(behind, kSeedColor).empty()) << "it cannot be rendered";
+  const ColorImage image = draw({{"seed", shifted(0.0), kSeedColor}});
+  int bright = 0;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 150; ++x) bright += at(image, x, y)[0] > kGray + 60 ? 1 : 0;
+  EXPECT_GT(bright, 20);
+  const test::TemporaryFolder folder;
+  writeColorPng(folder / "overlay.png", image);
+  const GrayImage read = readImage(folder / "overlay.png");
+  EXPECT_EQ(read.width, kWidth);
+  EXPECT_EQ(read.height, kHeight);
+  EXPECT_EQ(read.channels, 3);
+  EXPECT_EQ(read.color, image.bgr);
 }
 
 }  // namespace

@@ -35,9 +35,7 @@ TEST(FaceTree, MeetsTheFaceThatTryingAllOfThemFinds) {
     Camera camera = test::makePinhole(200, 200, 100.0);
     int hits = 0;
     for (int i = 0; i < 1500; ++i) {
-      Pose camera_from_station;
-      camera_from_station.rotation = test::randomRotation(random);
-      camera_from_station.translation_m = test::randomVector(random, 2.0);
+      const Pose camera_from_station = test::randomPose(random, 2.0);
       const Eigen::Vector2d pixel(random.uniform(0.0, 200.0), random.uniform(0.0, 200.0));
       const auto expected = surfacePointAt(camera, mesh.view(), camera_from_station, pixel);
       Eigen::Vector3d ray;
@@ -71,8 +69,7 @@ TEST(SurfacePointAt, PartFixedToTheCamera_HidesTheStation) {
   mesh.part_of_face = {0, 1};
   const Camera camera = test::makePinhole(200, 200, 100.0);
   for (const double distance_m : {0.5, 0.9, 0.1}) {
-    Pose pose;
-    pose.translation_m = {0.1, 0.0, distance_m};
+    const Pose pose{Eigen::Quaterniond::Identity(), {0.1, 0.0, distance_m}};
     const bool hidden = distance_m > 0.2;
     EXPECT_EQ(surfacePointAt(camera, mesh.view(), pose, {110.0, 99.5}).has_value(), !hidden);
     const auto visible = surfacePointAt(camera, mesh.view(), pose, {90.0, 99.5});

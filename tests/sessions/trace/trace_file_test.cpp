@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/trace/trace_file.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "sessions/trace/archive.h"
 #include "sessions/trace/trace_fields.h"
 #include "tests/support/example_run.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,7 +20,6 @@ namespace boresight::sessions {
 namespace {
 
 using test::exampleTrace;
-using testing::HasSubstr;
 
 constexpr std::size_t kChecksumBytes = 32;
 constexpr std::size_t kHeaderBytes = 20;
@@ -50,10 +49,7 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
   LocalizerOptions other;
   other.pnp.seed = 77;
   trace.changes = {{2, LocalizerOptions()}, {5, other}};
-  trace.competing_poses.resize(2);
-  trace.competing_poses[1].camera_from_station.translation_m = {0.1, 0.2, 0.3};
-  trace.competing_poses[1].similarity = 0.5;
-  trace.competing_poses[1].margin_nats = 3.5;
+  trace.competing_poses = {{}, {{Eigen::Quaterniond::Identity(), {0.1, 0.2, 0.3}}, 0.5, 3.5}};
   saveTrace(folder / "run.trace", trace);
   const LocalizationTrace loaded = loadTrace(folder / "run.trace");
   EXPECT_EQ(bytesOf(loaded), bytesOf(trace));

@@ -13,19 +13,14 @@
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "tests/core/geometry/planetary_cameras.h"
+#include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
-using boresight::test::planetaryCameras;
-using boresight::test::TemporaryFolder;
-
 Camera cameraOf(const CahvModel& cahv, int width, int height) {
-  Camera camera;
-  Pose camera_from_reference;
-  EXPECT_EQ(cameraFromCahv(cahv, width, height, camera, camera_from_reference), Status::kOk);
-  return camera;
+  return cameraOfVectors(cahv, width, height).value().camera;
 }
 
 /// A camera with its optical axis along z, where CAHVOR is Brown's radial distortion but for what
@@ -80,7 +75,7 @@ TEST(CameraConversion, OfAnOpticalAxisAlongTheCamerasIsExact) {
 
 TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
   const Camera given = cahvor({0.01, -0.004, 1.0});
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const FittedCamera fitted = fitCamera(given, CameraModel::kBrownConrady);
   const double infinite_m = std::numeric_limits<double>::infinity();
   writeFittedCamera(folder / "fitted.json", fitted, given, "given.cahvor", infinite_m);
@@ -104,7 +99,7 @@ TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
 }
 
 TEST(CameraConversion, IsNoWorseThanAPinhole) {
-  for (const auto& item : planetaryCameras()) {
+  for (const auto& item : test::planetaryCameras()) {
     const Camera given = cameraOf(item.cahv, item.width, item.height);
     if (isMirrored(given)) continue;
     const FittedCamera pinhole = fitCamera(given, CameraModel::kPinhole, 1.0);
@@ -154,12 +149,7 @@ TEST(CameraConversion, OfAHazardCameraIsAsGoodAtEveryDistance) {
 /// A fisheye whose axis is the camera's, with a field up to the pole of (x/z, y/z): where a
 /// point is seen needs no model.
 TEST(CameraConversion, OfAnEquidistantCameraIsWithinTwoPixelsUpToEightyDegrees) {
-  Camera given;
-  given.model = CameraModel::kKannalaBrandt;
-  given.width = given.height = 1024;
-  given.fx = given.fy = 455.0;
-  given.cx = given.cy = 511.5;
-  ASSERT_EQ(prepareCamera(given), Status::kOk);
+  const Camera given = test::makeCamera(CameraModel::kKannalaBrandt, 1024, 1024, 455.0);
   const FittedCamera fitted = fitCamera(given, CameraModel::kBrownConrady);
   const Eigen::Vector2d middle(given.cx, given.cy);
   for (double angle_rad = 0.05; angle_rad < 1.396; angle_rad += 0.05) {

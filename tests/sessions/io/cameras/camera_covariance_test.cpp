@@ -12,22 +12,20 @@
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "tests/core/geometry/planetary_cameras.h"
+#include "tests/sessions/io/folder_test.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
-#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
+using CameraCovarianceTest = FolderTest;
 using boresight::test::PlanetaryCamera;
-using boresight::test::planetaryCameras;
-using boresight::test::randomFor;
-using boresight::test::TemporaryFolder;
-using ::testing::HasSubstr;
 
 /// A covariance with correlations between all components, small enough for every model.
 Eigen::MatrixXd randomCovariance(CameraModel model) {
   const Eigen::Index size = vectorComponents(model);
-  Random random = randomFor("CameraCovariance");
+  Random random = test::randomFor("CameraCovariance");
   Eigen::MatrixXd root(size, size);
   for (Eigen::Index i = 0; i < size; ++i)
     for (Eigen::Index j = 0; j < size; ++j)
@@ -78,13 +76,12 @@ Eigen::Matrix2d variance_px(const CameraFile& file, const Eigen::Vector3d& point
   return by * file.covariance.value().of_vectors * by.transpose();
 }
 
-TEST(CameraCovariance, OfATextFile_GivesThePixelsTheSameVarianceInTheCamerasOwnFrame) {
-  const TemporaryFolder folder;
-  for (const PlanetaryCamera& camera : planetaryCameras()) {
+TEST_F(CameraCovarianceTest, OfATextFile_GivesThePixelsTheSameVarianceInTheCamerasOwnFrame) {
+  for (const PlanetaryCamera& camera : test::planetaryCameras()) {
     SCOPED_TRACE(camera.name);
     const CahvorFile file = fileOf(camera);
-    writeCahvorFile(folder / "a.cahvore", file);
-    const CameraFile read = readCameraFile(folder / "a.cahvore");
+    writeCahvorFile(folder_ / "a.cahvore", file);
+    const CameraFile read = readCameraFile(folder_ / "a.cahvore");
     ASSERT_TRUE(read.covariance);
     for (const PlanetaryCamera::Sight& sight : camera.sights) {
       const Eigen::Matrix2d expected = variance_px(file, sight.point_m);
@@ -93,34 +90,33 @@ TEST(CameraCovariance, OfATextFile_GivesThePixelsTheSameVarianceInTheCamerasOwnF
       EXPECT_LT((found - expected).norm(), 2e-3 * expected.norm());
     }
     // camera.json states it in the frame of its vectors.
-    writeCamera(folder / "a.json", read);
-    const auto json = nlohmann::json::parse(folder.read("a.json"));
+    writeCamera(folder_ / "a.json", read);
+    const auto json = nlohmann::json::parse(folder_.read("a.json"));
     EXPECT_NEAR(json["covariance"][0][4].get<double>(), file.covariance(0, 4),
                 1e-9 * std::sqrt(file.covariance(0, 0) * file.covariance(4, 4)));
-    const CameraFile again = readCameraFile(folder / "a.json");
+    const CameraFile again = readCameraFile(folder_ / "a.json");
     ASSERT_TRUE(again.covariance);
     EXPECT_LT((again.covariance->of_vectors - read.covariance->of_vectors).norm(),
               1e-12 * read.covariance->of_vectors.norm());
   }
 }
 
-TEST(CameraCovariance, OfAPartOfTheImageAtAnotherScale_IsThatOfItsPixels) {
-  const TemporaryFolder folder;
-  const PlanetaryCamera camera = planetaryCameras().front();
-  writeCahvorFile(folder / "a.cahvore", fileOf(camera));
-  const CameraFile whole = readCameraFile(folder / "a.cahvore");
+TEST_F(CameraCovarianceTest, OfAPartOfTheImageAtAnotherScale_IsThatOfItsPixels) {
+  const PlanetaryCamera camera = test::planetaryCameras().front();
+  writeCahvorFile(folder_ / "a.cahvore", fileOf(camera));
+  const CameraFile whole = readCameraFile(folder_ / "a.cahvore");
   nlohmann::ordered_json json = toJson(whole);
   json["subframe"] = {{"first_sample", 100}, {"first_line", 40}, {"scale", 2}};
   json["format"] = "boresight-camera";
   json["version"] = 1;
-  const CameraFile part = readCameraFile(folder.write("part.json", json.dump()));
+  const CameraFile part = readCameraFile(folder_.write("part.json", json.dump()));
   const Eigen::Vector3d point_in_camera_m =
       whole.reference->camera_from_reference * camera.sights.front().point_m;
   const Eigen::Matrix2d expected = variance_px(whole, point_in_camera_m) / 4.0;
   EXPECT_LT((variance_px(part, point_in_camera_m) - expected).norm(), 1e-4 * expected.norm());
 }
 
-TEST(CameraCovariance, OfNothingButTheFocalLength_IsItsSigma) {
+TEST_F(CameraCovarianceTest, OfNothingButTheFocalLength_IsItsSigma) {
   CahvModel vectors;
   vectors.h_px = {800.0, 0.0, 400.0};
   vectors.v_px = {0.0, 800.0, 300.0};
@@ -134,14 +130,13 @@ TEST(CameraCovariance, OfNothingButTheFocalLength_IsItsSigma) {
   EXPECT_NEAR(sigma.principal_point_px, 0.5, 1e-9);
 }
 
-TEST(CameraCovariance, ThatIsNone_IsRefusedByItsMember) {
-  const TemporaryFolder folder;
+TEST_F(CameraCovarianceTest, ThatIsNone_IsRefusedByItsMember) {
   auto json = nlohmann::json::parse(
       R"({"format": "boresight-camera", "version": 1, "model": "cahv", "width": 800, "height": 600,
           "C": [0, 0, 0], "A": [0, 0, 1], "H": [800, 0, 400], "V": [0, 800, 300]})");
   const auto error = [&](const nlohmann::json& covariance) {
     json["covariance"] = covariance;
-    return folder.message([&] { (void)readCameraFile(folder.write("a.json", json.dump())); });
+    return folder_.message([&] { (void)readCameraFile(folder_.write("a.json", json.dump())); });
   };
   nlohmann::json rows = nlohmann::json::array();
   for (int i = 0; i < 12; ++i) rows.push_back(std::vector<double>(12, 0.0));

@@ -6,13 +6,12 @@
 
 #include "sessions/io/files/errors.h"
 #include "tests/core/geometry/example_cameras.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
 
 using enum CameraModel;
-using testing::AllOf;
-using testing::HasSubstr;
 
 Camera withK1(double k1) {
   return makeCamera(kBrownConrady, 1024, 1024, 1552.5, {k1, 0.0, 0.0, 0.0});
@@ -30,19 +29,14 @@ TEST(CameraField, SaysWhereTheDistortionFoldsBack) {
   EXPECT_THROW(sessions::requireField("c.json", "dist", withK1(-5.0)), sessions::InputError);
 }
 
-TEST(CameraField, IsAcceptedWhereOnlyCornersLieBeyondTheFold) {
-  const Camera camera = withK1(-0.9);  // it folds 630 px from the middle
+TEST(CameraField, IsAcceptedWhereOnlyCornersLieBeyondTheFoldAndWhereAFisheyesCircleEnds) {
+  const Camera folding = withK1(-0.9);  // 630 px from the middle
+  // The image of the fisheye is a circle in the middle of the sensor, and all else is dark.
+  const Camera fisheye = makeCamera(kKannalaBrandt, 2000, 1000, 318.0, {0.0, 0.0, 0.0, 0.0});
   Eigen::Vector3d ray;
-  ASSERT_FALSE(unproject(camera, Eigen::Vector2d(0.0, 0.0), ray));
-  EXPECT_EQ(sessions::fieldConcern(camera), "");
-}
-
-/// Its image is a circle in the middle of the sensor, and all else is dark.
-TEST(CameraField, IsAcceptedWhereAFisheyesCircleEnds) {
-  const Camera camera = makeCamera(kKannalaBrandt, 2000, 1000, 318.0, {0.0, 0.0, 0.0, 0.0});
-  Eigen::Vector3d ray;
-  ASSERT_FALSE(unproject(camera, Eigen::Vector2d(300.0, 500.0), ray));
-  EXPECT_EQ(sessions::fieldConcern(camera), "");
+  ASSERT_FALSE(unproject(folding, Eigen::Vector2d(0.0, 0.0), ray));
+  ASSERT_FALSE(unproject(fisheye, Eigen::Vector2d(300.0, 500.0), ray));
+  for (const Camera& camera : {folding, fisheye}) EXPECT_EQ(sessions::fieldConcern(camera), "");
 }
 
 TEST(CameraField, IsRefusedWhereAFisheyeFoldsFarFromARightAngle) {

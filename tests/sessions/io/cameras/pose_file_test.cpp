@@ -9,27 +9,24 @@
 
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/sessions/io/folder_test.h"
+#include "tests/support/matchers.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
 namespace {
-
-using boresight::test::TemporaryFolder;
-using testing::HasSubstr;
-using ::testing::StartsWith;
 
 std::string poseText(const std::string& matrix, const std::string& rest = "") {
   return R"({"format": "boresight-pose", "version": 1, "camera_from_station": )" + matrix + rest +
          "}";
 }
 
-class ReadPose : public ::testing::Test {
+class ReadPose : public FolderTest {
  protected:
   PoseFile read(const std::string& text) { return readPose(folder_.write("seed.json", text)); }
   std::string error(const std::string& text) {
     return folder_.message([&] { (void)read(text); });
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(ReadPose, ReadsTheMatrixRowMajor) {
@@ -45,10 +42,8 @@ TEST_F(ReadPose, ReadsTheUncertainty) {
   const std::string identity = "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]";
   const PoseFile pose = read(poseText(identity, R"(, "uncertainty": {"translation_m": [0.01, 0.02,
       0.03], "rotation_deg": [1, 2, 3], "pivot": "station"})"));
-  ASSERT_TRUE(pose.uncertainty.has_value());
-  EXPECT_EQ(pose.uncertainty->translation_m, Eigen::Vector3d(0.01, 0.02, 0.03));
-  EXPECT_EQ(pose.uncertainty->rotation_deg, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(pose.uncertainty->pivot, UncertaintyPivot::kStation);
+  const DeclaredUncertainty expected{{0.01, 0.02, 0.03}, {1, 2, 3}, UncertaintyPivot::kStation};
+  EXPECT_TRUE(pose.uncertainty == expected);
 
   for (const auto& [uncertainty, refusal] : std::vector<std::array<const char*, 2>>{
            {R"({"translation_m": [0.1, 0.1, 0.1]})", "rotation_deg: missing"},
@@ -96,54 +91,45 @@ TEST_F(ReadPose, RefusesAPoseInAReferenceFrame) {
             "seed.json: camera_from_station: missing");
 }
 
-TEST(WritePose, RoundTrips) {
-  const TemporaryFolder folder;
+TEST_F(ReadPose, WrittenPoseAndUncertainty_AreReadBack) {
   Random random(3);
   for (int i = 0; i < 100; ++i) {
-    Pose pose;
     const Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
-    pose.rotation = rotationExp(axis.normalized() * random.uniform(0.0, kPi));
-    pose.translation_m =
-        Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    DeclaredUncertainty uncertainty;
-    uncertainty.translation_m = Eigen::Vector3d(random.uniform(), random.uniform(), 0.0);
-    uncertainty.rotation_deg = Eigen::Vector3d(random.uniform(), 5.5, random.uniform());
-    uncertainty.pivot = i % 2 == 0 ? UncertaintyPivot::kCamera : UncertaintyPivot::kStation;
-    writePose(folder / "pose.json", pose, uncertainty);
-    const PoseFile read = readPose(folder / "pose.json");
+    const Pose pose{rotationExp(axis.normalized() * random.uniform(0.0, kPi)),
+                    test::randomVector(random, 1.0)};
+    const DeclaredUncertainty uncertainty{
+        {random.uniform(), random.uniform(), 0.0},
+        {random.uniform(), 5.5, random.uniform()},
+        i % 2 == 0 ? UncertaintyPivot::kCamera : UncertaintyPivot::kStation};
+    writePose(folder_ / "pose.json", pose, uncertainty);
+    const PoseFile read = readPose(folder_ / "pose.json");
     EXPECT_EQ(read.camera_from_station.translation_m, pose.translation_m);
     EXPECT_LT((read.camera_from_station.matrix() - pose.matrix()).norm(), 2e-15);
-    ASSERT_TRUE(read.uncertainty.has_value());
-    EXPECT_EQ(read.uncertainty->translation_m, uncertainty.translation_m);
-    EXPECT_EQ(read.uncertainty->rotation_deg, uncertainty.rotation_deg);
-    EXPECT_EQ(read.uncertainty->pivot, uncertainty.pivot);
+    EXPECT_TRUE(read.uncertainty == uncertainty);
   }
 }
 
-TEST(WritePose, KeepsACovarianceAndRefusesWhatIsNone) {
-  const TemporaryFolder folder;
-  writePose(folder / "pose.json", Pose());
-  EXPECT_FALSE(readPose(folder / "pose.json").covariance);
+TEST_F(ReadPose, WrittenCovariance_IsReadBackOrRefused) {
+  const auto file = folder_ / "pose.json";
+  writePose(file, Pose());
+  EXPECT_FALSE(readPose(file).covariance);
   Matrix6d covariance = 1e-6 * Matrix6d::Identity();
   covariance(0, 4) = covariance(4, 0) = 5e-7;
-  writePose(folder / "pose.json", Pose(), {}, covariance);
-  EXPECT_EQ(readPose(folder / "pose.json").covariance, covariance);
-  const auto message = [&] { return folder.message([&] { readPose(folder / "pose.json"); }); };
-  Matrix6d asymmetric = covariance;
+  writePose(file, Pose(), {}, covariance);
+  EXPECT_EQ(readPose(file).covariance, covariance);
+  Matrix6d asymmetric = covariance, negative = covariance;
   asymmetric(0, 4) = 0.0;
-  writePose(folder / "pose.json", Pose(), {}, asymmetric);
-  EXPECT_THAT(message(), HasSubstr("covariance: not a covariance"));
-  covariance(2, 2) = -1e-6;
-  writePose(folder / "pose.json", Pose(), {}, covariance);
-  EXPECT_THAT(message(), HasSubstr("covariance: not a covariance"));
+  negative(2, 2) = -1e-6;
+  for (const Matrix6d& none : {asymmetric, negative}) {
+    writePose(file, Pose(), {}, none);
+    EXPECT_THAT(folder_.message([&] { readPose(file); }),
+                HasSubstr("covariance: not a covariance"));
+  }
 }
 
 TEST(SeedUncertaintyOf, TurnsDegreesAndThePivotIntoTheCoresTerms) {
-  DeclaredUncertainty declared;
-  declared.translation_m = Eigen::Vector3d(0.01, 0.02, 0.03);
-  declared.rotation_deg = Eigen::Vector3d(180, 90, 5);
-  Pose camera_from_station;
-  camera_from_station.translation_m = Eigen::Vector3d(0, 0, 0.4);
+  DeclaredUncertainty declared{{0.01, 0.02, 0.03}, {180, 90, 5}};
+  const Pose camera_from_station{Eigen::Quaterniond::Identity(), {0, 0, 0.4}};
   const Eigen::Vector3d centre(0.1, 0.2, 0.3);
   const SeedUncertainty camera = seedUncertainty(declared, camera_from_station, centre);
   EXPECT_EQ(camera.pivot_in_camera_m, Eigen::Vector3d::Zero());
@@ -154,13 +140,12 @@ TEST(SeedUncertaintyOf, TurnsDegreesAndThePivotIntoTheCoresTerms) {
   EXPECT_TRUE(station.pivot_in_camera_m.isApprox(Eigen::Vector3d(0.1, 0.2, 0.7), 1e-15));
 }
 
-TEST(ValidatedPoseFile, IsReadAsAPose) {
-  const test::TemporaryFolder folder;
-  const PoseFile pose = readPose(folder.write("validated_pose.json", R"({
+TEST_F(ReadPose, ValidatedPoseFile_IsReadAsAPose) {
+  const PoseFile pose = read(R"({
     "format": "boresight-validated-pose", "version": 1, "state": "validated",
     "pose": {"source": "run", "camera_from_station": [[1,0,0,0.1],[0,1,0,0.2],[0,0,1,0.3],[0,0,0,1]],
              "covariance": [[1,0,0,0,0,0],[0,1,0,0,0,0],[0,0,1,0,0,0],
-                            [0,0,0,1,0,0],[0,0,0,0,1,0],[0,0,0,0,0,2]]}})"));
+                            [0,0,0,1,0,0],[0,0,0,0,1,0],[0,0,0,0,0,2]]}})");
   EXPECT_EQ(pose.camera_from_station.translation_m, Eigen::Vector3d(0.1, 0.2, 0.3));
   ASSERT_TRUE(pose.covariance);
   EXPECT_EQ((*pose.covariance)(5, 5), 2.0);

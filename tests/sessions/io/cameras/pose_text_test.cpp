@@ -10,8 +10,6 @@
 namespace boresight::sessions {
 namespace {
 
-using test::poseNear;
-
 TEST(PoseText, ReadsBackWhatItWrites) {
   Random random = test::randomFor("PoseText");
   for (int i = 0; i < 50; ++i) {
@@ -22,7 +20,7 @@ TEST(PoseText, ReadsBackWhatItWrites) {
       const ParsedPose parsed = parsePose(text, guessReading(text));
       ASSERT_TRUE(parsed.valid) << text << '\n' << parsed.problem;
       EXPECT_EQ(parsed.form, form);
-      EXPECT_THAT(parsed.camera_from_station, poseNear(pose, 1e-12, 1e-12)) << text;
+      EXPECT_THAT(parsed.camera_from_station, test::poseNear(pose, 1e-12, 1e-12)) << text;
     }
   }
 }
@@ -52,27 +50,25 @@ TEST(ParsePose, OrderDirectionAndUnit_AreApplied) {
   EXPECT_FALSE(parsePose(columns, reading).valid);
   EXPECT_EQ(guessReading(columns).matrix_order, MatrixOrder::kColumnMajor);
   reading.matrix_order = MatrixOrder::kColumnMajor;
-  EXPECT_THAT(parsePose(columns, reading).camera_from_station,
-              poseNear(plain.camera_from_station, 1e-12, 1e-12));
-  EXPECT_THAT(parsePose("0 1 0  -1 0 0  0 0 1  1 2 3", reading).camera_from_station,
-              poseNear(plain.camera_from_station, 1e-12, 1e-12));
+  const auto expectRead = [&](const std::string& text, const Pose& expected, double rotation_rad) {
+    EXPECT_THAT(parsePose(text, reading).camera_from_station,
+                test::poseNear(expected, rotation_rad, 1e-12));
+  };
+  const Pose& pose = plain.camera_from_station;
+  expectRead(columns, pose, 1e-12);
+  expectRead("0 1 0  -1 0 0  0 0 1  1 2 3", pose, 1e-12);
 
   reading.matrix_order = MatrixOrder::kRowMajor;
   reading.direction = PoseDirection::kStationFromCamera;
-  EXPECT_THAT(parsePose(rows, reading).camera_from_station,
-              poseNear(plain.camera_from_station.inverse(), 1e-12, 1e-12));
+  expectRead(rows, pose.inverse(), 1e-12);
 
   reading.direction = PoseDirection::kCameraFromStation;
-  const double h = std::sqrt(0.5);
-  const std::string half = std::to_string(h);
+  const std::string half = std::to_string(std::sqrt(0.5));
   reading.quaternion_order = QuaternionOrder::kXyzw;
-  EXPECT_THAT(parsePose("0 0 " + half + " " + half + " 1 2 3", reading).camera_from_station,
-              poseNear(plain.camera_from_station, 1e-6, 1e-12));
+  expectRead("0 0 " + half + " " + half + " 1 2 3", pose, 1e-6);
   reading.quaternion_order = QuaternionOrder::kWxyz;
-  EXPECT_THAT(parsePose(half + " 0 0 " + half + " 1 2 3", reading).camera_from_station,
-              poseNear(plain.camera_from_station, 1e-6, 1e-12));
-  EXPECT_THAT(parsePose("0 0 90 1e0 +2 3", reading).camera_from_station,
-              poseNear(plain.camera_from_station, 1e-12, 1e-12));
+  expectRead(half + " 0 0 " + half + " 1 2 3", pose, 1e-6);
+  expectRead("0 0 90 1e0 +2 3", pose, 1e-12);
 }
 
 TEST(ParsePose, LeavesOutDigitsThatBelongToNames) {

@@ -13,12 +13,14 @@
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_reader.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/sessions/io/folder_test.h"
 
 namespace boresight::sessions {
 namespace {
 
-using boresight::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+using FileBytes = FolderTest;
 
 /// A socket with a name, as a program that listens has it.
 void makeSocket(const std::filesystem::path& file) {
@@ -31,37 +33,46 @@ void makeSocket(const std::filesystem::path& file) {
   ::close(descriptor);
 }
 
-TEST(FileBytes, PipesSocketsAndDevicesAreRefusedWithoutReading) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  makeSocket(folder / "socket");
-  for (const std::filesystem::path& file :
-       {folder / "pipe", folder / "socket", std::filesystem::path("/dev/zero"),
-        std::filesystem::path("/dev/null")}) {
+TEST_F(FileBytes, PipesSocketsAndDevicesAreRefusedWithoutReading) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  makeSocket(folder_ / "socket");
+  for (const fs::path& file :
+       {folder_ / "pipe", folder_ / "socket", fs::path("/dev/zero"), fs::path("/dev/null")}) {
     const std::string name =
         file.parent_path() == "/dev" ? file.string() : file.filename().string();
     const std::string expected = name + ": is a pipe, a socket or a device: give a regular file";
-    EXPECT_EQ(folder.message([&] { (void)readFileBytes(file, kMegabyte); }), expected);
-    EXPECT_EQ(folder.message([&] { (void)readBeginning(file, 8); }), expected);
+    EXPECT_EQ(folder_.message([&] { (void)readFileBytes(file, kMegabyte); }), expected);
+    EXPECT_EQ(folder_.message([&] { (void)readBeginning(file, 8); }), expected);
   }
-  EXPECT_EQ(folder.message([&] { (void)readBeginning(folder.path(), 8); }),
-            folder.path().string() + ": is a folder, not a file");
+  EXPECT_EQ(folder_.message([&] { (void)readBeginning(folder_.path(), 8); }),
+            folder_.path().string() + ": is a folder, not a file");
 }
 
-TEST(FileBytes, BeginningHoldsAtMostTheBytesAskedFor) {
-  const TemporaryFolder folder;
-  const auto file = folder.write("file", "twelve bytes");
-  EXPECT_EQ(asText(readBeginning(file, 6)), "twelve");
-  EXPECT_EQ(asText(readBeginning(file, 100)), "twelve bytes");
-  folder.write("empty", "");
-  EXPECT_EQ(folder.message([&] { (void)readBeginning(folder / "empty", 6); }),
+TEST_F(FileBytes, WholeFileOrAtMostTheBytesAskedFor_AreRead) {
+  std::string text;
+  for (int i = 0; i < 200000; ++i) text += static_cast<char>(i * 7);
+  const auto file = folder_.write("file", text);
+  EXPECT_EQ(asText(readFileBytes(file, kMegabyte)), text);
+  EXPECT_EQ(readFileBytes(file, 200000).size(), 200000u);
+  EXPECT_EQ(asText(readBeginning(file, 6)), text.substr(0, 6));
+  EXPECT_EQ(asText(readBeginning(file, 200100)), text);
+}
+
+TEST_F(FileBytes, UnreadableFile_IsReportedWithTheReason) {
+  folder_.write("empty", "");
+  folder_.write("large", std::string(1001, 'x'));
+  const auto message = [&](const fs::path& file) {
+    return folder_.message([&] { readFileBytes(file, 1000); });
+  };
+  EXPECT_EQ(message(folder_ / "no"), "no: no such file");
+  EXPECT_EQ(message(folder_ / "empty"), "empty: the file is empty");
+  EXPECT_EQ(folder_.message([&] { (void)readBeginning(folder_ / "empty", 6); }),
             "empty: the file is empty");
+  EXPECT_EQ(message(folder_ / "large"), "large: larger than the limit of 0 MB");
+  EXPECT_EQ(message(folder_.path()), folder_.path().string() + ": is a folder, not a file");
 }
 
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-
-class InputFiles : public testing::Test {
+class InputFiles : public FolderTest {
  protected:
   /// Whether an output of this name and use is refused, and the file is as it was.
   bool isRefused(const std::string& name, FileUse use = FileUse::kInput) const {
@@ -77,17 +88,18 @@ class InputFiles : public testing::Test {
     return false;
   }
 
-  const test::TemporaryFolder folder_;
   const fs::path input_ = folder_.write("input.png", "pixels");
 };
 
-TEST_F(InputFiles, AreNotReplaced) {
+TEST_F(InputFiles, AreNotReplacedByAnOutputNorByAFileThatIsMovedThere) {
   EXPECT_EQ(readFileBytes(input_, 100).size(), 6u);
   EXPECT_TRUE(isRefused("input.png"));
   EXPECT_FALSE(isRefused("other.png"));
   EXPECT_EQ(folder_.message([&] { writeFileAtomically(input_, std::string_view("output")); }),
             "cannot write input.png: it is the input input.png, which would be overwritten; give "
             "another file");
+  EXPECT_THROW(moveIntoPlace(folder_.write("made", "output"), input_), OverwriteError);
+  EXPECT_EQ(folder_.read("input.png"), "pixels");
 }
 
 TEST_F(InputFiles, AreNotReplacedByAnyOfTheirNames) {
@@ -99,12 +111,6 @@ TEST_F(InputFiles, AreNotReplacedByAnyOfTheirNames) {
   for (const char* name :
        {"input.png", "symbolic.png", "twice.png", "hard.png", "folder/input.png", "./input.png"})
     EXPECT_TRUE(isRefused(name)) << name;
-}
-
-TEST_F(InputFiles, AreNotReplacedByAFileThatIsMovedThere) {
-  readFileBytes(input_, 100);
-  EXPECT_THROW(moveIntoPlace(folder_.write("made", "output"), input_), OverwriteError);
-  EXPECT_EQ(folder_.read("input.png"), "pixels");
 }
 
 TEST_F(InputFiles, AreNamedByOthers) {

@@ -6,15 +6,13 @@
 
 #include <array>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/sessions/io/folder_test.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-
-class FrameSourceTest : public testing::Test {
+class FrameSourceTest : public FolderTest {
  protected:
   void image(const std::string& name, std::uint8_t gray = 7) const {
     const std::array<std::uint8_t, 6> pixels = {gray, 1, 2, 3, 4, 5};
@@ -30,8 +28,6 @@ class FrameSourceTest : public testing::Test {
   std::string refusal(const std::string& name) const {
     return folder_.message([&] { (void)openImages(folder_ / name); });
   }
-
-  const test::TemporaryFolder folder_;
 };
 
 TEST_F(FrameSourceTest, Folder_GivesItsImagesByNumber) {

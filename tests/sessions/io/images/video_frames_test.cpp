@@ -7,12 +7,13 @@
 #include <opencv2/videoio.hpp>
 
 #include "sessions/io/images/pixel_image.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/sessions/io/folder_test.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
-using testing::HasSubstr;
+using Video = FolderTest;
 
 /// Five frames of 64 x 48 px, of one colour each, as motion JPEG; false where OpenCV cannot.
 bool writeVideo(const std::filesystem::path& file, bool color) {
@@ -23,10 +24,9 @@ bool writeVideo(const std::filesystem::path& file, bool color) {
   return writer.isOpened();
 }
 
-TEST(Video, Frames_AreReadInTheirOrder) {
-  const test::TemporaryFolder folder;
+TEST_F(Video, Frames_AreReadInTheirOrder) {
   for (const bool color : {false, true}) {
-    const std::filesystem::path file = folder / (color ? "color.avi" : "gray.avi");
+    const std::filesystem::path file = folder_ / (color ? "color.avi" : "gray.avi");
     ASSERT_TRUE(writeVideo(file, color));
     const auto source = openVideo(file);
     EXPECT_EQ(source->count(), 5);
@@ -34,8 +34,7 @@ TEST(Video, Frames_AreReadInTheirOrder) {
       const auto frame = source->next();
       ASSERT_TRUE(frame && frame->image) << i;
       EXPECT_EQ(frame->name, "frame 00000" + std::to_string(i + 1));
-      EXPECT_EQ(frame->image->width, 64);
-      EXPECT_EQ(frame->image->height, 48);
+      EXPECT_EQ(std::pair(frame->image->width, frame->image->height), std::pair(64, 48));
       EXPECT_EQ(frame->image->color.empty(), !color);
       const double gray = color ? 0.299 * 200 + 0.701 * 40 * i : 40 * i;
       EXPECT_NEAR(frame->image->pixels[1000], gray, 4.0);
@@ -45,49 +44,42 @@ TEST(Video, Frames_AreReadInTheirOrder) {
 }
 
 /// Of a video and of a folder, whatever comes before the frame.
-TEST(Frames, AnyFrame_IsReadByItsNumber) {
-  const test::TemporaryFolder folder;
-  ASSERT_TRUE(writeVideo(folder / "gray.avi", false));
-  std::filesystem::create_directory(folder / "images");
+TEST_F(Video, AnyFrame_IsReadByItsNumber) {
+  ASSERT_TRUE(writeVideo(folder_ / "gray.avi", false));
+  std::filesystem::create_directory(folder_ / "images");
   for (int i = 0; i < 5; ++i)
-    writePng(folder / ("images/" + std::to_string(i) + ".png"),
+    writePng(folder_ / ("images/" + std::to_string(i) + ".png"),
              std::vector<std::uint8_t>(64 * 48, static_cast<std::uint8_t>(40 * i)), 64, 48, 1);
   for (const char* images : {"gray.avi", "images"}) {
-    const auto frame = readFrame(folder / images, 4);
+    const auto frame = readFrame(folder_ / images, 4);
     ASSERT_TRUE(frame && frame->image) << images;
     EXPECT_NEAR(frame->image->pixels[1000], 120, 4) << images;
-    EXPECT_FALSE(readFrame(folder / images, 6)) << images;
+    EXPECT_FALSE(readFrame(folder_ / images, 6)) << images;
   }
-  EXPECT_EQ(readFrame(folder / "gray.avi", 4)->name, "frame 000004");
+  EXPECT_EQ(readFrame(folder_ / "gray.avi", 4)->name, "frame 000004");
 }
 
-TEST(Video, FileThatIsNone_IsRefusedWithTheRemedy) {
-  const test::TemporaryFolder folder;
-  const auto file = folder.write("a.mp4", std::string_view("no video"));
-  EXPECT_THAT(folder.message([&] { (void)openVideo(file); }),
+TEST_F(Video, FileThatIsNone_IsRefusedWithTheRemedy) {
+  const auto file = folder_.write("a.mp4", std::string_view("no video"));
+  EXPECT_THAT(folder_.message([&] { (void)openVideo(file); }),
               HasSubstr("cannot read this video; write its frames as PNG images"));
-  EXPECT_THAT(folder.message([&] { (void)openVideo(folder / "none.mp4"); }),
+  EXPECT_THAT(folder_.message([&] { (void)openVideo(folder_ / "none.mp4"); }),
               HasSubstr("there is no such file"));
 }
 
-TEST(Video, Names_AreKnownByTheirEnds) {
-  EXPECT_TRUE(isVideoName("approach.MP4"));
-  EXPECT_TRUE(isVideoName("a/b.avi"));
-  EXPECT_FALSE(isVideoName("images"));
-  EXPECT_FALSE(isVideoName("images.txt"));
+TEST_F(Video, Names_AreKnownByTheirEnds) {
+  for (const char* name : {"approach.MP4", "a/b.avi"}) EXPECT_TRUE(isVideoName(name)) << name;
+  for (const char* name : {"images", "images.txt"}) EXPECT_FALSE(isVideoName(name)) << name;
 }
 
-TEST(PixelImage, IsThatOfAFileWithThesePixels) {
-  const test::TemporaryFolder folder;
+TEST_F(Video, PixelImage_IsThatOfAFileWithThesePixels) {
   cv::Mat pixels(5, 7, CV_8UC3);
   cv::randu(pixels, 0, 256);
-  writePng(folder / "a.png", {pixels.data, pixels.total() * 3}, 7, 5, 3);
-  const GrayImage read = readImage(folder / "a.png");
+  writePng(folder_ / "a.png", {pixels.data, pixels.total() * 3}, 7, 5, 3);
+  const GrayImage read = readImage(folder_ / "a.png");
   const GrayImage made = grayImageOf("a", pixels);
-  EXPECT_EQ(made.pixels, read.pixels);
-  EXPECT_EQ(made.color, read.color);
-  EXPECT_EQ(made.pixels_sha256, read.pixels_sha256);
-  EXPECT_EQ(made.rule, read.rule);
+  EXPECT_EQ(std::tie(made.pixels, made.color, made.pixels_sha256, made.rule),
+            std::tie(read.pixels, read.color, read.pixels_sha256, read.rule));
 }
 
 }  // namespace

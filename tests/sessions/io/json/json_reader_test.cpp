@@ -12,14 +12,11 @@
 #include "core/base/random.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_writer.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
-
-using boresight::test::TemporaryFolder;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 using J = const JsonReader&;
 
@@ -74,12 +71,9 @@ TEST(JsonDocument, RefusesDeepNestingAndLargeFiles) {
 }
 
 TEST(JsonDocument, ReadsAFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const JsonDocument document(folder.write("a.json", "\xEF\xBB\xBF{\"x\": 5}"));
   EXPECT_EQ(document.root().at("x").integer(), 5);
-  EXPECT_EQ(folder.message([&] { JsonDocument(folder / "b.json"); }), "b.json: no such file");
-  EXPECT_EQ(folder.message([&] { JsonDocument(folder.write("c.json", "")); }),
-            "c.json: the file is empty");
 }
 
 TEST(JsonDocument, ChecksFormatAndVersion) {
@@ -192,14 +186,12 @@ TEST(PrettyJson, KeepsEveryBitOfADouble) {
   }
 }
 
-TEST(PrettyJson, PutsPlainListsOnOneLine) {
+TEST(PrettyJson, PutsPlainListsOnOneLineAndRefusesNumbersThatAreNotFinite) {
   const auto json = nlohmann::ordered_json::parse(R"({"b":[1,2,3],"a":[[1.5,2],[3,4]],"e":{}})");
   EXPECT_EQ(
       prettyJson(json),
       "{\n  \"b\": [1, 2, 3],\n  \"a\": [\n    [1.5, 2],\n    [3, 4]\n  ],\n  \"e\": {}\n}\n");
-}
-
-TEST(PrettyJson, RefusesNumbersThatAreNotFinite) {
+  // Numbers that are not finite are refused.
   EXPECT_THROW((void)prettyJson(nlohmann::ordered_json(std::nan(""))), std::logic_error);
   EXPECT_THROW((void)prettyJson(nlohmann::ordered_json::array({1.0, HUGE_VAL})), std::logic_error);
 }

@@ -13,6 +13,7 @@
 
 #include "core/base/random.h"
 #include "core/geometry/pose.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
 namespace {
@@ -26,24 +27,7 @@ std::vector<Face> soup(std::int32_t triangles) {
   return faces;
 }
 
-TEST(WeldMesh, JoinsEqualPositionsInTheOrderOfAppearance) {
-  const std::vector<Vector3f> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
-                                          {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
-  const WeldedMesh welded = weldMesh(vertices, soup(2));
-  ASSERT_EQ(welded.vertices.size(), 4u);
-  EXPECT_EQ(welded.vertices[3], Vector3f(1, 1, 0));
-  EXPECT_EQ(welded.merged_vertices, 2);
-  ASSERT_EQ(welded.faces.size(), 2u);
-  EXPECT_EQ(welded.faces[1].vertex, (std::array<std::int32_t, 3>{2, 1, 3}));
-}
-
-TEST(WeldMesh, JoinsNegativeAndPositiveZero) {
-  const std::vector<Vector3f> vertices = {{0.0F, 0, 0},  {1, 0, 0}, {0, 1, 0},
-                                          {-0.0F, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
-  EXPECT_EQ(weldMesh(vertices, soup(2)).vertices.size(), 4u);
-}
-
-TEST(WeldMesh, JoinsWhatRoundingSeparatedButNotNeighbours) {
+TEST(WeldMesh, JoinsZerosOfEitherSignAndWhatRoundingSeparatedButNotNeighbours) {
   const float step = std::numeric_limits<float>::epsilon();
   const std::vector<Vector3f> vertices = {{1, 0, 0},        {0, 1, 0}, {0, 0, 1},
                                           {1 + step, 0, 0}, {0, 1, 0}, {1 + 40 * step, 0, 0}};
@@ -51,15 +35,9 @@ TEST(WeldMesh, JoinsWhatRoundingSeparatedButNotNeighbours) {
   EXPECT_EQ(welded.vertices.size(), 4u);
   EXPECT_EQ(welded.faces[1].vertex[0], 0);
   EXPECT_EQ(welded.faces[1].vertex[2], 3);
-}
-
-TEST(WeldMesh, LeavesOutCollapsedFacesAndUnusedVertices) {
-  const std::vector<Vector3f> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}, {1, 0, 0}};
-  const WeldedMesh welded = weldMesh(vertices, {{{0, 1, 2}}, {{0, 1, 4}}});
-  EXPECT_EQ(welded.faces.size(), 1u);
-  EXPECT_EQ(welded.collapsed_faces, 1);
-  EXPECT_EQ(welded.unused_vertices, 1);
-  EXPECT_EQ(welded.vertices.size(), 3u);
+  const std::vector<Vector3f> zeros = {{0.0F, 0, 0},  {1, 0, 0}, {0, 1, 0},
+                                       {-0.0F, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  EXPECT_EQ(weldMesh(zeros, soup(2)).vertices.size(), 4u);
 }
 
 /// Against comparing every pair: the grid must not lose a neighbour across its cells' borders.
@@ -69,15 +47,9 @@ TEST(WeldMesh, FindsTheSameVerticesAsComparingEveryPair) {
     std::vector<Vector3f> vertices;
     // Clusters about as wide as the tolerance, in coordinates of either sign.
     for (int cluster = 0; cluster < 20; ++cluster) {
-      const Vector3f centre(static_cast<float>(random.uniform(-1, 1)),
-                            static_cast<float>(random.uniform(-1, 1)),
-                            static_cast<float>(random.uniform(-1, 1)));
-      for (int i = 0; i < 6; ++i) {
-        Vector3f vertex = centre;
-        for (int axis = 0; axis < 3; ++axis)
-          vertex[axis] += static_cast<float>(random.uniform(-4e-7, 4e-7));
-        vertices.push_back(vertex);
-      }
+      const Vector3f centre = test::randomVector(random, 1.0).cast<float>();
+      for (int i = 0; i < 6; ++i)
+        vertices.push_back(centre + test::randomVector(random, 4e-7).cast<float>());
     }
     // The corners of a face come from different clusters, so that no face collapses.
     std::vector<Face> faces;
@@ -124,15 +96,6 @@ double coveredArea(const std::vector<Vector3f>& vertices, const std::vector<Face
   return area;
 }
 
-TEST(TriangulatePolygon, LeavesATriangleAsItIs) {
-  const std::vector<Vector3f> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  std::vector<Face> faces;
-  const std::vector<std::int32_t> corners = {2, 0, 1};
-  EXPECT_TRUE(triangulatePolygon(vertices, corners, faces));
-  ASSERT_EQ(faces.size(), 1u);
-  EXPECT_EQ(faces[0].vertex, (std::array<std::int32_t, 3>{2, 0, 1}));
-}
-
 /// Star-shaped polygons around a centre, in random planes: their area is the sum of the slices.
 TEST(TriangulatePolygon, CoversConcavePolygonsOnceWithTheirWinding) {
   Random random(6);
@@ -162,13 +125,17 @@ TEST(TriangulatePolygon, CoversConcavePolygonsOnceWithTheirWinding) {
   }
 }
 
-TEST(TriangulatePolygon, TakesCornersOnAStraightLine) {
+TEST(TriangulatePolygon, TakesCornersOnAStraightLineAndLeavesATriangleAsItIs) {
   const std::vector<Vector3f> vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0},
                                           {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};
   std::vector<Face> faces;
   EXPECT_TRUE(triangulatePolygon(vertices, allOf(vertices), faces));
   EXPECT_EQ(faces.size(), 5u);
   EXPECT_NEAR(coveredArea(vertices, faces), 4.0, 1e-12);
+  std::vector<Face> triangle;
+  EXPECT_TRUE(triangulatePolygon(vertices, std::vector<std::int32_t>{6, 3, 4}, triangle));
+  ASSERT_EQ(triangle.size(), 1u);
+  EXPECT_EQ(triangle[0].vertex, (std::array<std::int32_t, 3>{6, 3, 4}));
 }
 
 TEST(TriangulatePolygon, FansWhatHasNoInside) {

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "tests/support/box_mesh.h"
 
 /// Small mesh files made by hand, so that the readers are not tested with their own writer.
 namespace boresight::test {
@@ -22,10 +24,8 @@ struct PolygonMesh {
 inline PolygonMesh cube() {
   PolygonMesh mesh;
   for (int i = 0; i < 8; ++i)
-    mesh.vertices.emplace_back((i & 1) != 0 ? 1.0F : -1.0F, (i & 2) != 0 ? 1.0F : -1.0F,
-                               (i & 4) != 0 ? 11.0F : 9.0F);
-  mesh.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    mesh.vertices.push_back((boxCorner({1, 1, 1}, i) + Eigen::Vector3d(0, 0, 10)).cast<float>());
+  for (const auto& quad : kBoxQuads) mesh.polygons.emplace_back(std::begin(quad), std::end(quad));
   return mesh;
 }
 
@@ -131,23 +131,21 @@ inline std::string gltfBuffer(const PolygonMesh& mesh, std::size_t* index_count 
   return bytes;
 }
 
+inline constexpr const char* kOneNode = R"([{"mesh":0}])";
+
 /// `nodes` is the JSON text of the node list; node 0 is the scene's root, mesh 0 the mesh.
 inline std::string gltf(const PolygonMesh& mesh, const std::string& nodes,
                         const std::string& uri_member) {
   std::size_t index_count = 0;
   const std::size_t size = gltfBuffer(mesh, &index_count).size();
   const std::string positions = std::to_string(12 * mesh.vertices.size());
-  Eigen::Vector3f low = mesh.vertices[0];
-  Eigen::Vector3f high = low;
-  for (const Eigen::Vector3f& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& v : mesh.vertices) box.extend(v);
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
          R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)" +
          R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
-         std::to_string(mesh.vertices.size()) + R"(,"min":)" + "[" + textOf(low, ",") + "]" +
-         R"(,"max":)" + "[" + textOf(high, ",") + "]" +
+         std::to_string(mesh.vertices.size()) + R"(,"min":)" + "[" + textOf(box.min(), ",") + "]" +
+         R"(,"max":)" + "[" + textOf(box.max(), ",") + "]" +
          R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)" +
          std::to_string(index_count) +
          R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + positions +
@@ -156,18 +154,24 @@ inline std::string gltf(const PolygonMesh& mesh, const std::string& nodes,
          std::to_string(size) + "}]}";
 }
 
-inline std::string glb(const PolygonMesh& mesh, const std::string& nodes) {
-  std::string json = gltf(mesh, nodes, "");
+/// A chunk of a GLB file, for instance of the type "JSON".
+inline std::string glbChunk(const std::string& type, const std::string& content) {
+  std::string bytes;
+  appendNumber(bytes, static_cast<std::uint32_t>(content.size()), false);
+  return bytes + type + content;
+}
+
+inline std::string glbFile(std::string json, const std::string& further_chunks) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  const std::string buffer = gltfBuffer(mesh);
+  const std::string chunks = glbChunk("JSON", json) + further_chunks;
   std::string bytes = "glTF";
   appendNumber(bytes, std::uint32_t{2}, false);
-  appendNumber(bytes, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + buffer.size()), false);
-  appendNumber(bytes, static_cast<std::uint32_t>(json.size()), false);
-  bytes += "JSON" + json;
-  appendNumber(bytes, static_cast<std::uint32_t>(buffer.size()), false);
-  bytes += std::string("BIN\0", 4) + buffer;
-  return bytes;
+  appendNumber(bytes, static_cast<std::uint32_t>(12 + chunks.size()), false);
+  return bytes + chunks;
+}
+
+inline std::string glb(const PolygonMesh& mesh, const std::string& nodes = kOneNode) {
+  return glbFile(gltf(mesh, nodes, ""), glbChunk(std::string("BIN\0", 4), gltfBuffer(mesh)));
 }
 
 }  // namespace boresight::test

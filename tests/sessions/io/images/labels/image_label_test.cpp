@@ -11,18 +11,24 @@
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/io/images/image_file.h"
 #include "tests/sessions/io/images/labels/label_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::TemporaryFolder;
-using ::testing::Contains;
-using ::testing::HasSubstr;
-
-ImageLabel readLabelOf(const TemporaryFolder& folder, const Pds3File& pds,
-                       const Raster& raster = Raster::plain()) {
-  return readImageLabel(folder.write("image.img", pds.bytes(raster)));
-}
+class ImageLabelTest : public LabelTest {
+ protected:
+  /// Why a label with this group of a camera model has no camera; empty where it has one.
+  std::string remark(const GroupItems& camera, const std::string& image_items = "",
+                     const std::string& items = "", const Raster& raster = Raster::plain()) const {
+    Pds3File pds;
+    pds.items = items + pds3Group("GEOMETRIC_CAMERA_MODEL", camera);
+    pds.image_items = image_items;
+    const ImageLabel label = readLabelOf(pds, raster);
+    EXPECT_EQ(label.camera.has_value(), label.camera_remark.empty());
+    return label.camera_remark;
+  }
+};
 
 /// The camera of the label projects as the vectors it was written from.
 void expectModel(const ImageLabel& label, const CahvModel& cahv) {
@@ -46,8 +52,7 @@ void expectModel(const ImageLabel& label, const CahvModel& cahv) {
   EXPECT_NEAR(back.parameter, cahv.parameter, 1e-9);
 }
 
-TEST(ImageLabel, ComponentsAreFoundByLetterOrNameInAnyOrder) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, ComponentsAreFoundByLetterOrNameInAnyOrder) {
   Random random(3);
   for (const CameraModel model : {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
     for (int round = 0; round < 9; ++round) {
@@ -56,18 +61,12 @@ TEST(ImageLabel, ComponentsAreFoundByLetterOrNameInAnyOrder) {
       std::string order = "CAHVORETP";
       for (std::size_t i = order.size() - 1; i > 0; --i)
         std::swap(order[i], order[random.below(static_cast<std::uint32_t>(i + 1))]);
-      const GroupItems items = cameraItems(cahv, order, round % 3 != 1, round % 3 != 2);
-      Pds3File pds;
       const char* const names[] = {"GEOMETRIC_CAMERA_MODEL", "GEOMETRIC_CAMERA_MODEL_PARMS",
                                    "CAMERA_MODEL"};
-      pds.items = pds3Group(names[round % 3], items);
-      expectModel(readLabelOf(folder, pds), cahv);
-      VicarFile vicar;
-      vicar.items = vicarProperty(names[round % 3], items);
-      vicar.items_at_end = round % 2 == 1;
-      const auto file = folder.write("image.vic", vicar.bytes(Raster::plain()));
-      expectModel(readImageLabel(file), cahv);
-      EXPECT_EQ(readCameraFile(file).camera, readImageLabel(file).camera->camera);
+      const auto labels =
+          labelsOf({{names[round % 3], cameraItems(cahv, order, round % 3 != 1, round % 3 != 2)}});
+      for (const ImageLabel& label : labels) expectModel(label, cahv);
+      EXPECT_EQ(readCameraFile(folder_ / "last.vic").camera, labels.back().camera->camera);
     }
 }
 
@@ -84,8 +83,7 @@ std::string pds4Vector(const std::string& name, const Eigen::Vector3d& v, const 
 }
 
 std::string pds4Camera(const CahvModel& cahv) {
-  const std::string kind = std::array{"CAHV", "CAHVOR", "CAHVORE"}[static_cast<std::size_t>(
-      static_cast<int>(cahv.model) - static_cast<int>(CameraModel::kCahv))];
+  const std::string kind = modelType(cahv);
   std::string model = pds4Vector("Vector_Vertical", cahv.v_px, "_pixel") +
                       pds4Vector("Vector_Center", cahv.c_m, "_position") +
                       pds4Vector("Vector_Axis", cahv.a, "_unit") +
@@ -101,16 +99,14 @@ std::string pds4Camera(const CahvModel& cahv) {
   for (const auto& [name, value] : {std::pair("SITE", "14"), {"DRIVE", "1262"}, {"POSE", "6"}})
     frame += element("Coordinate_Space_Index",
                      element("index_id", name) + element("index_value_number", value));
+  const std::string parameters =
+      element("model_type", kind) + element(kind + "_Model", model) +
+      element("Coordinate_Space_Reference", element("Coordinate_Space_Indexed", frame));
   return element("Geometry",
-                 element("Geometry_Lander",
-                         element("Camera_Model_Parameters",
-                                 element("model_type", kind) + element(kind + "_Model", model) +
-                                     element("Coordinate_Space_Reference",
-                                             element("Coordinate_Space_Indexed", frame)))));
+                 element("Geometry_Lander", element("Camera_Model_Parameters", parameters)));
 }
 
-TEST(ImageLabel, Pds4GivesTheSameModels) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, Pds4GivesTheSameModels) {
   for (const CameraModel model :
        {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore}) {
     const CahvModel cahv = exampleModel(model, 77.0, 31.0, 24.0);
@@ -122,18 +118,16 @@ TEST(ImageLabel, Pds4GivesTheSameModels) {
         "</img:sample_bit_mask></img:Sampling><img:Commanded_Parameters><img:Subframe>"
         "<img:first_line>500</img:first_line></img:Subframe></img:Commanded_Parameters>"
         "</img:Imaging>";
-    folder.write("pixels.img", pds.pixels(Raster::plain()));
-    const ImageLabel label = readImageLabel(folder.write("image.xml", pds.label(Raster::plain())));
+    folder_.write("pixels.img", pds.pixels(Raster::plain()));
+    const ImageLabel label = readImageLabel(folder_.write("image.xml", pds.label(Raster::plain())));
     expectModel(label, cahv);
     EXPECT_EQ(label.format, "PDS4");
     EXPECT_EQ(label.bit_depth, 12);
-    ASSERT_TRUE(label.subframe);
-    EXPECT_TRUE(label.subframe->whole());
+    EXPECT_TRUE(label.subframe && label.subframe->whole());
   }
 }
 
-TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, UnitsBlanksAndWordsForNothingAreUnderstood) {
   const CahvModel cahv = exampleModel(CameraModel::kCahv, 60, 31, 24);
   Pds3File pds;
   GroupItems items = with(cameraItems(cahv), "MODEL_COMPONENT_1",
@@ -144,62 +138,35 @@ TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
   items.emplace_back("CALIBRATION_SOURCE_ID", "UNK");
   pds.items = "PRODUCT_ID = \"IMAGE   \"\r\nMISSION_NAME = \"NULL\"\r\n" +
               pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  const ImageLabel label = readLabelOf(folder, pds);
+  const ImageLabel label = readLabelOf(pds);
   expectModel(label, cahv);
   EXPECT_EQ(label.identifiers, (std::vector<LabelItem>{{"PRODUCT_ID", "IMAGE"}}));
   EXPECT_EQ(label.camera_items, (std::vector<LabelItem>{{"SOLUTION_ID", "telemetry and more"}}));
   items[3].second = "(1 <mm>,2 <mm>,3 <mm>)";
-  pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  EXPECT_THAT(readLabelOf(folder, pds).camera_remark, HasSubstr("the unit 'MM'"));
+  EXPECT_THAT(remark(items), HasSubstr("the unit 'MM'"));
 }
 
-TEST(ImageLabel, ExponentsOfFortranAreExponents) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, ExponentsOfFortranAreExponents) {
   GroupItems items = with(cameraItems(exampleModel(CameraModel::kCahv, 60, 31, 24)),
                           "MODEL_COMPONENT_1", "(1.5D-03,-2.5d1,3.D+2)");
   items.emplace_back("SOLUTION_ID", "\"1.5D-03\"");
-  Pds3File pds;
-  pds.items = "PRODUCT_ID = 1F483D5\r\n" + pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  VicarFile vicar;
-  vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", items);
-  for (const auto& file : {folder.write("a.img", pds.bytes(Raster::plain())),
-                           folder.write("a.vic", vicar.bytes(Raster::plain()))}) {
-    const ImageLabel label = readImageLabel(file);
+  for (const ImageLabel& label : labelsOf({{"GEOMETRIC_CAMERA_MODEL", items}})) {
     ASSERT_TRUE(label.camera) << label.camera_remark;
     const Eigen::Vector3d centre_m =
         label.camera->reference->camera_from_reference.inverse().translation_m;
     EXPECT_LT((centre_m - Eigen::Vector3d(0.0015, -25.0, 300.0)).norm(), 1e-9);
     EXPECT_THAT(label.camera_items, Contains(LabelItem{"SOLUTION_ID", "1.5D-03"}));
-    if (label.format == "PDS3") {
-      EXPECT_THAT(label.identifiers, Contains(LabelItem{"PRODUCT_ID", "1F483D5"}));
-    }
   }
-}
-
-std::string remarkFor(const TemporaryFolder& folder, const CahvModel& cahv,
-                      const std::string& image_items = "", const std::string& items = "",
-                      int width = 64, int height = 48) {
   Pds3File pds;
-  pds.items = items + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(cahv));
-  pds.image_items = image_items;
-  const ImageLabel label = readLabelOf(folder, pds, Raster::plain(width, height));
-  EXPECT_EQ(label.camera.has_value(), label.camera_remark.empty());
-  return label.camera_remark;
+  pds.items = "PRODUCT_ID = 1F483D5\r\n" + pds3Group("GEOMETRIC_CAMERA_MODEL", items);
+  EXPECT_THAT(readLabelOf(pds).identifiers, Contains(LabelItem{"PRODUCT_ID", "1F483D5"}));
 }
 
-TEST(ImageLabel, CameraModelsThatAreNoneSayWhy) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, CameraModelsThatAreNoneSayWhy) {
   const CahvModel cahv = exampleModel(CameraModel::kCahvore, 60, 31, 24);
-  Pds3File pds;
-  EXPECT_EQ(readLabelOf(folder, pds).camera_remark, "the label has no camera model");
-  EXPECT_EQ(folder.message([&] { readCameraFile(folder.path() / "image.img"); }),
+  EXPECT_EQ(readLabelOf(Pds3File()).camera_remark, "the label has no camera model");
+  EXPECT_EQ(folder_.message([&] { readCameraFile(folder_ / "image.img"); }),
             "image.img: the label has no camera model");
-  const auto remark = [&](const GroupItems& items) {
-    pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-    const ImageLabel label = readLabelOf(folder, pds);
-    EXPECT_FALSE(label.camera);
-    return label.camera_remark;
-  };
   for (const auto& [key, value, expected] : std::vector<std::array<const char*, 3>>{
            {"MODEL_TYPE", "\"NONE\"", "the label's camera model is NONE"},
            {"MODEL_TYPE", "\"PSPH\"", "'PSPH', is not one of"},
@@ -214,74 +181,69 @@ TEST(ImageLabel, CameraModelsThatAreNoneSayWhy) {
               HasSubstr("no usable component C"));
 }
 
-TEST(ImageLabel, CameraModelsThatDoNotFitTheImageAreLeftOut) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, CameraModelsThatDoNotFitTheImageAreLeftOut) {
   const std::string uncut = " FIRST_LINE = 1\r\n FIRST_LINE_SAMPLE = 1\r\n";
   const auto model = [](double f, double cx, double cy) {
-    return exampleModel(CameraModel::kCahv, f, cx, cy);
+    return cameraItems(exampleModel(CameraModel::kCahv, f, cx, cy));
   };
-  EXPECT_EQ(remarkFor(folder, model(60, 31, 24), uncut), "");
-  EXPECT_THAT(remarkFor(folder, model(60, 63, 24), uncut),
+  EXPECT_EQ(remark(model(60, 31, 24), uncut), "");
+  EXPECT_THAT(remark(model(60, 63, 24), uncut),
               HasSubstr("its principal point would be at (63.0, 24.0) of 64 x 48 px"));
-  EXPECT_THAT(remarkFor(folder, model(60, 31, 600)), HasSubstr("no sub-frame is stated"));
+  EXPECT_THAT(remark(model(60, 31, 600)), HasSubstr("no sub-frame is stated"));
   for (const double focal_px : {0.5, 1e7})
-    EXPECT_THAT(remarkFor(folder, model(focal_px, 31, 24)), HasSubstr("is invalid: focal lengths"));
-  CahvModel longer = model(60, 31, 24);
+    EXPECT_THAT(remark(model(focal_px, 31, 24)), HasSubstr("is invalid: focal lengths"));
+  CahvModel longer = exampleModel(CameraModel::kCahv, 60, 31, 24);
   longer.a *= 1.01;
-  EXPECT_THAT(remarkFor(folder, longer), HasSubstr("its axis A has the length 1.0100"));
+  EXPECT_THAT(remark(cameraItems(longer)), HasSubstr("its axis A has the length 1.0100"));
   CahvModel odd = exampleModel(CameraModel::kCahvor, 60, 31, 24);
   odd.o *= 0.9;
-  EXPECT_THAT(remarkFor(folder, odd), HasSubstr("cannot project"));
+  EXPECT_THAT(remark(cameraItems(odd)), HasSubstr("cannot project"));
   const std::string averaged =
       "GROUP = INSTRUMENT_STATE_PARMS\r\n PIXEL_AVERAGING_WIDTH = 1\r\n "
       "PIXEL_AVERAGING_HEIGHT = 4\r\nEND_GROUP = INSTRUMENT_STATE_PARMS\r\n";
-  EXPECT_THAT(remarkFor(folder, model(60, 31, 24), uncut, averaged),
+  EXPECT_THAT(remark(model(60, 31, 24), uncut, averaged),
               HasSubstr("does not fit the down-sampling by 1.00 x 4.00"));
 }
 
-TEST(ImageLabel, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
   const std::string cut = " FIRST_LINE = 401\r\n FIRST_LINE_SAMPLE = 501\r\n";
   const std::string rover = "INSTRUMENT_HOST_ID = MSL\r\nINSTRUMENT_ID = NAV_LEFT_A\r\n";
-  // A detector of 1024 x 1024 with its principal point in the middle.
-  const CahvModel whole = exampleModel(CameraModel::kCahv, 454, 511.5, 511.5);
+  const Raster raster = Raster::plain(256, 128);
   const CahvModel part = exampleModel(CameraModel::kCahv, 454, 11.5, 111.5);
   Pds3File pds;
   pds.items = rover + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(part));
   pds.image_items = cut;
-  const ImageLabel label = readLabelOf(folder, pds, Raster::plain(256, 128));
+  const ImageLabel label = readLabelOf(pds, raster);
   expectModel(label, part);
   ASSERT_TRUE(label.subframe);
   EXPECT_EQ(label.subframe->first_sample, 500);
   EXPECT_EQ(label.subframe->first_line, 400);
+  // A detector of 1024 x 1024 with its principal point in the middle.
+  const CahvModel whole = exampleModel(CameraModel::kCahv, 454, 511.5, 511.5);
   EXPECT_THAT(
-      remarkFor(folder, whole, cut, rover, 256, 128),
+      remark(cameraItems(whole), cut, rover, raster),
       HasSubstr("does not fit the sub-frame at sample 500, line 400: its principal point "
                 "would be at (1011.5, 911.5) of the detector, which has up to 1024 x 1024"));
   // Another mission's label: both readings are possible, so none is taken.
-  EXPECT_THAT(remarkFor(folder, part, cut, "", 256, 128), HasSubstr("does not state whether"));
+  EXPECT_THAT(remark(cameraItems(part), cut, "", raster), HasSubstr("does not state whether"));
   // Far from the detector's middle the principal point is left of the cut: only one is possible.
   const std::string right = " FIRST_LINE = 401\r\n FIRST_LINE_SAMPLE = 701\r\n";
-  EXPECT_EQ(
-      remarkFor(folder, exampleModel(CameraModel::kCahv, 454, -188.5, 111.5), right, "", 256, 128),
-      "");
+  const CahvModel left = exampleModel(CameraModel::kCahv, 454, -188.5, 111.5);
+  EXPECT_EQ(remark(cameraItems(left), right, "", raster), "");
 }
 
-TEST(ImageLabel, OfTwoLabelsInAFileTheOneWithAModelCounts) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, OfTwoLabelsInAFileTheOneWithAModelCounts) {
   const CahvModel cahv = exampleModel(CameraModel::kCahvor, 60, 31, 24);
   const CahvModel other = exampleModel(CameraModel::kCahvor, 61, 31, 24);
   const auto read = [&](const CahvModel* in_pds, const CahvModel* in_vicar) {
-    VicarFile vicar;
-    vicar.store = Store::kHalf;
-    vicar.big_endian = true;
+    VicarFile vicar{Store::kHalf, true};
     if (in_vicar != nullptr)
       vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_vicar));
     Pds3File pds;
     const Bytes whole = vicar.bytes(Raster::plain());
     pds.between.assign(whole.begin(), whole.end() - 2 * 64 * 48);
     if (in_pds != nullptr) pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_pds));
-    return readLabelOf(folder, pds);
+    return readLabelOf(pds);
   };
   const ImageLabel same = read(&cahv, &cahv);
   expectModel(same, cahv);
@@ -295,8 +257,7 @@ TEST(ImageLabel, OfTwoLabelsInAFileTheOneWithAModelCounts) {
   EXPECT_THAT(differing.flags, Contains(HasSubstr("state different camera models")));
 }
 
-TEST(ImageLabel, FramesAreReadScalarFirst) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, FramesAreReadScalarFirst) {
   // 90 deg about z: x of the rover is y of the site.
   const GroupItems rover{{"COORDINATE_SYSTEM_NAME", "\"ROVER_NAV_FRAME\""},
                          {"COORDINATE_SYSTEM_INDEX", "(14,1262)"},
@@ -308,8 +269,8 @@ TEST(ImageLabel, FramesAreReadScalarFirst) {
   bad[0].second = "\"ARM_FRAME\"";
   bad[3].second = "(1.0,1.0,0.0,0.0)";
   for (const ImageLabel& label :
-       labelsOf(folder, {{"ROVER_COORDINATE_SYSTEM", rover}, {"ARM_COORDINATE_SYSTEM", bad}})) {
-    ASSERT_EQ(label.frames.size(), 1u);
+       labelsOf({{"ROVER_COORDINATE_SYSTEM", rover}, {"ARM_COORDINATE_SYSTEM", bad}})) {
+    ASSERT_THAT(label.frames, SizeIs(1));
     EXPECT_EQ(label.frames[0].frame, (FrameName{"ROVER_NAV_FRAME", {14, 1262}}));
     EXPECT_EQ(label.frames[0].reference, (FrameName{"SITE_FRAME", {14}}));
     const Eigen::Vector3d seen = label.frames[0].reference_from_frame * Eigen::Vector3d(1, 0, 0);
@@ -318,34 +279,31 @@ TEST(ImageLabel, FramesAreReadScalarFirst) {
   }
 }
 
-TEST(ImageLabel, MosaicsAndMapsAreFlagged) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, MosaicsAndMapsAreFlagged) {
   Pds3File pds;
   pds.items =
       "GROUP = INSTRUMENT_STATE_PARMS\r\n CFA_TYPE = \"BAYER_RGGB\"\r\nEND_GROUP = "
       "INSTRUMENT_STATE_PARMS\r\nGROUP = DERIVED_IMAGE_PARMS\r\n DERIVED_IMAGE_TYPE = "
       "\"RANGE_MAP\"\r\nEND_GROUP = DERIVED_IMAGE_PARMS\r\n";
-  const ImageLabel label = readLabelOf(folder, pds);
+  const ImageLabel label = readLabelOf(pds);
   EXPECT_EQ(label.bayer_pattern, "BAYER_RGGB");
   EXPECT_THAT(label.flags, Contains(HasSubstr("the label calls this a RANGE_MAP")));
-  const GrayImage image = readImage(folder.path() / "image.img");
+  const GrayImage image = readImage(folder_ / "image.img");
   EXPECT_THAT(image.notes, Contains(HasSubstr("a mosaic of colours (BAYER_RGGB)")));
-  ImageReadOptions options;
-  options.bayer = BayerPattern::kRggb;
-  EXPECT_EQ(readImage(folder.path() / "image.img", options).notes, label.flags);
+  const ImageReadOptions interpolated{{}, {}, {}, BayerPattern::kRggb};
+  EXPECT_EQ(readImage(folder_ / "image.img", interpolated).notes, label.flags);
   ASSERT_TRUE(image.label);
   EXPECT_EQ(image.label->bayer_pattern, "BAYER_RGGB");
 }
 
-TEST(ImageLabel, FilesWithoutALabelHaveNone) {
-  const TemporaryFolder folder;
+TEST_F(ImageLabelTest, FilesWithoutALabelHaveNone) {
   for (const auto& file :
-       {folder / "gone.img", folder.path(),
-        folder.write("a.json", "{\"format\": \"boresight-camera\"}"),
-        folder.write("a.xml", "<?xml version=\"1.0\"?><svg/>"), folder.write("a.txt", "LBLSIZ")})
+       {folder_ / "gone.img", folder_.path(),
+        folder_.write("a.json", "{\"format\": \"boresight-camera\"}"),
+        folder_.write("a.xml", "<?xml version=\"1.0\"?><svg/>"), folder_.write("a.txt", "LBLSIZ")})
     EXPECT_FALSE(hasImageLabel(file)) << file;
-  EXPECT_TRUE(hasImageLabel(folder.write("a", "LBLSIZE=  100")));
-  EXPECT_TRUE(hasImageLabel(folder.write("b", "PDS_VERSION_ID = PDS3\r\n")));
+  EXPECT_TRUE(hasImageLabel(folder_.write("a", "LBLSIZE=  100")));
+  EXPECT_TRUE(hasImageLabel(folder_.write("b", "PDS_VERSION_ID = PDS3\r\n")));
 }
 
 }  // namespace

@@ -10,14 +10,15 @@
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "tests/sessions/io/images/labels/label_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::TemporaryFolder;
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+class LabelCamera : public LabelTest {
+ protected:
+  const GroupItems items_ = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
+};
 
 std::string fitOf(const CahvModel& cahv, int width, int height, const LabelSubframe& subframe,
                   const std::vector<LabelItem>& identifiers) {
@@ -37,7 +38,7 @@ CahvModel partOf(const CahvModel& whole, int first_sample, int first_line) {
 
 /// The sixteen tiles in which a Navcam image of 5120 x 3840 comes down, the vectors of one of them
 /// as published with the raw image.
-TEST(LabelCamera, EveryTileOfADetectorIsTakenAsItsOwnModel) {
+TEST_F(LabelCamera, EveryTileOfADetectorIsTakenAsItsOwnModel) {
   CahvModel tile;
   tile.model = CameraModel::kCahvore;
   tile.c_m = {0.950849, 0.349753, -1.89429};
@@ -64,7 +65,7 @@ TEST(LabelCamera, EveryTileOfADetectorIsTakenAsItsOwnModel) {
 
 /// Of random parts of a detector the part's model is taken, and none that puts the principal point
 /// near the detector's border or outside of it.
-TEST(LabelCamera, PrincipalPointsNearTheMiddleOfTheDetectorFit) {
+TEST_F(LabelCamera, PrincipalPointsNearTheMiddleOfTheDetectorFit) {
   const std::vector<LabelItem> rover = {{"INSTRUMENT_HOST_ID", "MER2"}};
   Random random(31);
   for (int i = 0; i < 300; ++i) {
@@ -86,39 +87,33 @@ TEST(LabelCamera, PrincipalPointsNearTheMiddleOfTheDetectorFit) {
   }
 }
 
-TEST(LabelCamera, SeveralModelsMustAgree) {
-  const TemporaryFolder folder;
-  const GroupItems items = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
+TEST_F(LabelCamera, SeveralModelsMustAgree) {
   const GroupItems other = cameraItems(exampleModel(CameraModel::kCahvor, 61, 31, 24));
   const GroupItems none = {{"MODEL_TYPE", "\"NONE\""}};
-  for (const auto& [first, second] : {std::pair(items, items), {none, items}, {items, other}})
+  for (const auto& [first, second] : {std::pair(items_, items_), {none, items_}, {items_, other}})
     for (const ImageLabel& label :
-         labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", first}, {"CAMERA_MODEL", second}})) {
+         labelsOf({{"GEOMETRIC_CAMERA_MODEL", first}, {"CAMERA_MODEL", second}})) {
       EXPECT_EQ(label.camera.has_value(), second != other) << label.camera_remark;
       EXPECT_EQ(label.camera_remark.find("several camera models that differ") != std::string::npos,
                 second == other);
     }
 }
 
-TEST(LabelCamera, KeyStatedTwice_LeavesTheCameraOut) {
-  const TemporaryFolder folder;
-  GroupItems items = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
+TEST_F(LabelCamera, KeyStatedTwice_LeavesTheCameraOut) {
+  GroupItems items = items_;
   items.insert(items.begin(), {"MODEL_DESC", "\"PROPERTY in 2 (two) = lines,\r\n GROUP = X\""});
-  for (const ImageLabel& label : labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", items}}))
+  // Other groups may repeat a key.
+  for (const ImageLabel& label :
+       labelsOf({{"GEOMETRIC_CAMERA_MODEL", items}, {"OTHER", {{"A", "1"}, {"A", "2"}}}}))
     EXPECT_TRUE(label.camera) << label.camera_remark;
-  GroupItems twice = items;
-  twice.emplace_back("MODEL_COMPONENT_1", "(9,9,9)");
-  for (const ImageLabel& label : labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", twice}})) {
+  items.emplace_back("MODEL_COMPONENT_1", "(9,9,9)");
+  for (const ImageLabel& label : labelsOf({{"GEOMETRIC_CAMERA_MODEL", items}})) {
     EXPECT_FALSE(label.camera) << label.format;
     EXPECT_THAT(label.camera_remark, HasSubstr("states MODEL_COMPONENT_1 of its camera model "));
   }
-  // Other groups may repeat a key.
-  for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", items}, {"OTHER", {{"A", "1"}, {"A", "2"}}}}))
-    EXPECT_TRUE(label.camera) << label.camera_remark;
 }
 
-TEST(LabelCamera, MirroredAndSkewedModelsAreNoCameras) {
+TEST_F(LabelCamera, MirroredAndSkewedModelsAreNoCameras) {
   const auto misfit = [](const CahvModel& cahv) {
     return cameraMisfit(cahv, 64, 48, std::nullopt, {});
   };
@@ -142,34 +137,28 @@ TEST(LabelCamera, MirroredAndSkewedModelsAreNoCameras) {
   EXPECT_THAT(misfit(far), HasSubstr("its centre is over 1000000 m"));
 }
 
-TEST(LabelCamera, UnitsOfAllValuesCount) {
-  const TemporaryFolder folder;
+TEST_F(LabelCamera, UnitsOfAllValuesCount) {
   Pds3File pds;
   pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL",
-                        with(cameraItems(exampleModel(CameraModel::kCahv, 60, 31, 24)),
-                             "MODEL_COMPONENT_1", "(1 <m>, -200 <mm>, -700 <mm>)"));
-  EXPECT_THAT(readImageLabel(folder.write("a.img", pds.bytes(Raster::plain()))).camera_remark,
-              HasSubstr("the unit 'M, MM'"));
+                        with(items_, "MODEL_COMPONENT_1", "(1 <m>, -200 <mm>, -700 <mm>)"));
+  EXPECT_THAT(readLabelOf(pds).camera_remark, HasSubstr("the unit 'M, MM'"));
   const auto frames = [&](const std::string& offset) {
     pds.items =
         pds3Group("ROVER_COORDINATE_SYSTEM", {{"COORDINATE_SYSTEM_NAME", "\"ROVER_FRAME\""},
                                               {"ORIGIN_OFFSET_VECTOR", offset},
                                               {"ORIGIN_ROTATION_QUATERNION", "(1.0,0.0,0.0,0.0)"},
                                               {"REFERENCE_COORD_SYSTEM_NAME", "\"SITE_FRAME\""}});
-    return readImageLabel(folder.write("a.img", pds.bytes(Raster::plain()))).frames;
+    return readLabelOf(pds).frames;
   };
   EXPECT_EQ(frames("(1.0 <m>,2.0 <m>,3.0 <m>)").size(), 1u);
   EXPECT_EQ(frames("(1.0,2.0,3.0)").size(), 1u);
   EXPECT_THAT(frames("(1000.0 <mm>,0.0 <mm>,0.0 <mm>)"), IsEmpty());
 }
 
-TEST(LabelCamera, FramesWithAnOddIndexHaveNoName) {
-  const TemporaryFolder folder;
-  const GroupItems items = cameraItems(exampleModel(CameraModel::kCahv, 60, 31, 24));
+TEST_F(LabelCamera, FramesWithAnOddIndexHaveNoName) {
   for (const char* index : {"(1,2,\"N/A\")", "(1,2.5,3)", "(1,\"A7\")", "\"A7\"", "\"N/A\""})
     for (const ImageLabel& label : labelsOf(
-             folder,
-             {{"GEOMETRIC_CAMERA_MODEL", with(items, "REFERENCE_COORD_SYSTEM_INDEX", index)}})) {
+             {{"GEOMETRIC_CAMERA_MODEL", with(items_, "REFERENCE_COORD_SYSTEM_INDEX", index)}})) {
       ASSERT_TRUE(label.camera) << label.camera_remark;
       const bool odd = index != std::string("\"N/A\"");
       EXPECT_EQ(label.camera->reference->frame,

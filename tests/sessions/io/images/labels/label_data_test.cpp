@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,43 +38,32 @@ std::vector<double> listAfter(const std::string& text, const std::string& keywor
   std::vector<double> numbers;
   if (at == std::string::npos) return numbers;
   std::string list = text.substr(open, text.find_first_of(")\r\n", open) - open);
-  for (char& c : list)
-    if (c == '(' || c == ',') c = ' ';
-  const char* next = list.c_str();
-  char* end = nullptr;
-  for (double value = std::strtod(next, &end); end != next; value = std::strtod(next, &end)) {
-    numbers.push_back(value);
-    next = end;
-  }
+  std::replace_if(
+      list.begin(), list.end(), [](char c) { return c == '(' || c == ','; }, ' ');
+  std::istringstream stream(list);
+  for (double value; stream >> value;) numbers.push_back(value);
   return numbers;
 }
 
-TEST(LabelData, PixelsAreThoseAtTheOffsetThatTheLabelNames) {
+/// Pixels are those at the offset that the label names, and vectors have the numbers of its text.
+TEST(LabelData, ImagesAndTheirCameras_AreThoseOfTheFilesText) {
   const auto files = missionImages();
   if (files.empty()) GTEST_SKIP() << "BORESIGHT_DATA names no folder with planetary images";
   for (const fs::path& file : files) {
+    SCOPED_TRACE(file);
     const auto bytes = readFileBytes(file, kMaxImageFileBytes);
     const std::string text(asText(bytes).substr(0, 30000));
     const auto record = static_cast<std::size_t>(listAfter(text, "RECORD_BYTES").at(0));
     const auto first = static_cast<std::size_t>(listAfter(text, "^IMAGE").at(0));
     const ImageSamples samples = readSamples(file);
-    ASSERT_EQ(samples.width, 1024) << file;
-    ASSERT_EQ(samples.height, 1024) << file;
+    ASSERT_EQ(samples.width, 1024);
+    ASSERT_EQ(samples.height, 1024);
     const std::size_t offset = (first - 1) * record;
     for (std::size_t i = 0; i < samples.values.size(); ++i)
-      ASSERT_EQ(samples.values[i], bytes[offset + 2 * i] * 256 + bytes[offset + 2 * i + 1])
-          << file << " " << i;
+      ASSERT_EQ(samples.values[i], bytes[offset + 2 * i] * 256 + bytes[offset + 2 * i + 1]) << i;
     const GrayImage image = readImage(file);
-    EXPECT_EQ(image.bit_depth, 12) << file;
+    EXPECT_EQ(image.bit_depth, 12);
     EXPECT_EQ(image.container, "PDS3");
-  }
-}
-
-TEST(LabelData, CameraModelsHaveTheNumbersOfTheText) {
-  const auto files = missionImages();
-  if (files.empty()) GTEST_SKIP() << "BORESIGHT_DATA names no folder with planetary images";
-  for (const fs::path& file : files) {
-    const std::string text(asText(readFileBytes(file, kMaxImageFileBytes)).substr(0, 30000));
     const auto begin = text.find("= GEOMETRIC_CAMERA_MODEL");
     const std::string group = text.substr(begin, text.find("END_GROUP", begin) - begin);
     const ImageLabel label = readImageLabel(file);
@@ -86,14 +76,13 @@ TEST(LabelData, CameraModelsHaveTheNumbersOfTheText) {
     int component = 0;
     forVectors(model, [&](const char* key, const Eigen::Vector3d& vector) {
       const auto stated = listAfter(group, "MODEL_COMPONENT_" + std::to_string(++component));
-      ASSERT_EQ(stated.size(), 3u) << file << " " << key;
+      ASSERT_EQ(stated.size(), 3u) << key;
       const Eigen::Vector3d expected(stated[0], stated[1], stated[2]);
-      EXPECT_LT((vector - expected).norm(), 1e-5 * std::max(1.0, expected.norm()))
-          << file << " " << key;
+      EXPECT_LT((vector - expected).norm(), 1e-5 * std::max(1.0, expected.norm())) << key;
     });
     if (model.model != CameraModel::kCahvore) continue;
-    EXPECT_EQ(model.type, listAfter(group, "MODEL_COMPONENT_8").at(0)) << file;
-    EXPECT_EQ(model.parameter, listAfter(group, "MODEL_COMPONENT_9").at(0)) << file;
+    EXPECT_EQ(model.type, listAfter(group, "MODEL_COMPONENT_8").at(0));
+    EXPECT_EQ(model.parameter, listAfter(group, "MODEL_COMPONENT_9").at(0));
   }
 }
 

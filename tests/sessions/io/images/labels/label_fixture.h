@@ -2,6 +2,7 @@
 // Images with labels, written byte by byte as their formats' descriptions have it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -14,8 +15,9 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/cahv_model.h"
+#include "sessions/io/images/image_file.h"
 #include "sessions/io/images/labels/image_label.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/sessions/io/folder_test.h"
 
 namespace boresight::sessions {
 
@@ -31,6 +33,11 @@ struct Raster {
   }
   double& at(int band, int line, int sample) { return samples[index(band, line, sample)]; }
   double at(int band, int line, int sample) const { return samples[index(band, line, sample)]; }
+  /// Of red, green and blue.
+  double luma(int line, int x) const {
+    return std::floor(
+        (9798 * at(0, line, x) + 19235 * at(1, line, x) + 3735 * at(2, line, x) + 16384) / 32768);
+  }
   static Raster filled(int width, int height, int bands,
                        const std::function<double(std::size_t)>& value) {
     Raster raster{width, height, bands, {}};
@@ -76,23 +83,22 @@ inline void appendVax(Bytes& bytes, float value) {
 }
 
 inline void appendSample(Bytes& bytes, double value, Store store, bool big_endian) {
-  switch (store) {
-    case Store::kByte:
-    case Store::kHalf:
-    case Store::kFull:
-      return append(bytes, static_cast<std::uint64_t>(static_cast<std::int64_t>(value)),
-                    bytesOf(store), big_endian);
-    case Store::kIeee:
-      return append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4, big_endian);
-    case Store::kVax:
-      return appendVax(bytes, static_cast<float>(value));
-    case Store::kDouble:
-      return append(bytes, std::bit_cast<std::uint64_t>(value), 8, big_endian);
-  }
+  if (store == Store::kVax) return appendVax(bytes, static_cast<float>(value));
+  if (store == Store::kIeee)
+    return append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4, big_endian);
+  if (store == Store::kDouble)
+    return append(bytes, std::bit_cast<std::uint64_t>(value), 8, big_endian);
+  append(bytes, static_cast<std::uint64_t>(static_cast<std::int64_t>(value)), bytesOf(store),
+         big_endian);
 }
 
 inline void appendText(Bytes& bytes, const std::string& text) {
   bytes.insert(bytes.end(), text.begin(), text.end());
+}
+
+inline Bytes joinedBytes(Bytes first, const Bytes& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
 }
 
 inline std::string decimals(double value) {
@@ -111,7 +117,7 @@ struct VicarFile {
   std::string organization = "BSQ";
   int prefix_bytes = 0;    ///< NBB
   int header_records = 0;  ///< NLB
-  std::string items;       ///< property and task items of the label
+  std::string items = {};  ///< property and task items of the label
   bool items_at_end = false;
 
   std::string formatName() const {
@@ -119,56 +125,11 @@ struct VicarFile {
     return kNames[static_cast<int>(store)];
   }
 
-  Bytes bytes(const Raster& raster) const {
-    const int n1 = organization == "BIP" ? raster.bands : raster.width;
-    const int record = prefix_bytes + n1 * bytesOf(store);
-    const int label_size = ((2000 + static_cast<int>(items.size())) / record + 1) * record;
-    const auto number = [](const char* key, int value) {
-      return std::string(key) + "=" + std::to_string(value) + "  ";
-    };
-    std::string label = "LBLSIZE=" + std::to_string(label_size);
-    label.resize(24, ' ');
-    label += "FORMAT='" + formatName() + "'  TYPE='IMAGE'  " + number("BUFSIZ", record) +
-             number("DIM", 3) + number("EOL", items_at_end ? 1 : 0) + number("RECSIZE", record) +
-             "ORG='" + organization + "'  " + number("NL", raster.height) +
-             number("NS", raster.width) + number("NB", raster.bands) + number("N1", n1) +
-             number("N2", organization == "BSQ"   ? raster.height
-                          : organization == "BIL" ? raster.bands
-                                                  : raster.width) +
-             number("N3", organization == "BSQ" ? raster.bands : raster.height) + number("N4", 0) +
-             number("NBB", prefix_bytes) + number("NLB", header_records) + "HOST='" +
-             (store == Store::kVax ? "VAX-VMS"
-              : big_endian         ? "SUN-SOLR"
-                                   : "X86-LINUX") +
-             "'  INTFMT='" + (big_endian ? "HIGH" : "LOW") + "'  REALFMT='" +
-             (store == Store::kVax ? "VAX"
-              : big_endian         ? "IEEE"
-                                   : "RIEEE") +
-             "'  COMPRESS='NONE'  EOCI1=0  EOCI2=0  ";
-    if (!items_at_end) label += items;
+  /// The samples in the order of the organization, a prefix before each record.
+  Bytes records(const Raster& r) const {
     Bytes bytes;
-    appendText(bytes, label);
-    bytes.resize(static_cast<std::size_t>(label_size), 0);
-    for (int i = 0; i < header_records * record; ++i) bytes.push_back(0xa5);
-    appendRecords(bytes, raster);
-    if (items_at_end) {
-      const std::size_t begin = bytes.size();
-      std::string end = "LBLSIZE=" + std::to_string(label_size);
-      end.resize(24, ' ');
-      appendText(bytes, end + items);
-      bytes.resize(begin + static_cast<std::size_t>(label_size), 0);
-    }
-    return bytes;
-  }
-
- private:
-  void appendRecords(Bytes& bytes, const Raster& r) const {
-    // Of a place (band, line, sample): what grows slowest, then faster.
-    const std::array<std::size_t, 3> order =
-        organization == "BSQ"   ? std::array<std::size_t, 3>{0, 1, 2}
-        : organization == "BIL" ? std::array<std::size_t, 3>{1, 0, 2}
-                                : std::array<std::size_t, 3>{1, 2, 0};
     const std::array<int, 3> count = {r.bands, r.height, r.width};
+    const std::array<std::size_t, 3> order = slowestFirst();
     std::array<int, 3> at = {0, 0, 0};
     for (at[order[0]] = 0; at[order[0]] < count[order[0]]; ++at[order[0]])
       for (at[order[1]] = 0; at[order[1]] < count[order[1]]; ++at[order[1]]) {
@@ -176,6 +137,49 @@ struct VicarFile {
         for (at[order[2]] = 0; at[order[2]] < count[order[2]]; ++at[order[2]])
           appendSample(bytes, r.at(at[0], at[1], at[2]), store, big_endian);
       }
+    return bytes;
+  }
+
+  Bytes bytes(const Raster& r) const {
+    const std::array<int, 3> count = {r.bands, r.height, r.width};
+    const auto [slow, middle, fast] = slowestFirst();
+    const int record = prefix_bytes + count[fast] * bytesOf(store);
+    const int label_size = ((2000 + static_cast<int>(items.size())) / record + 1) * record;
+    const bool vax = store == Store::kVax;
+    const std::string host = vax ? "VAX-VMS" : big_endian ? "SUN-SOLR" : "X86-LINUX";
+    const std::string real = vax ? "VAX" : big_endian ? "IEEE" : "RIEEE";
+    const auto number = [](const char* key, int value) {
+      return std::string(key) + "=" + std::to_string(value) + "  ";
+    };
+    std::string begin = "LBLSIZE=" + std::to_string(label_size);
+    begin.resize(24, ' ');
+    const std::string system =
+        "FORMAT='" + formatName() + "'  TYPE='IMAGE'  " + number("BUFSIZ", record) +
+        number("DIM", 3) + number("EOL", items_at_end ? 1 : 0) + number("RECSIZE", record) +
+        "ORG='" + organization + "'  " + number("NL", r.height) + number("NS", r.width) +
+        number("NB", r.bands) + number("N1", count[fast]) + number("N2", count[middle]) +
+        number("N3", count[slow]) + number("N4", 0) + number("NBB", prefix_bytes) +
+        number("NLB", header_records) + "HOST='" + host + "'  INTFMT='" +
+        (big_endian ? "HIGH" : "LOW") + "'  REALFMT='" + real +
+        "'  COMPRESS='NONE'  EOCI1=0  EOCI2=0  ";
+    Bytes bytes;
+    appendText(bytes, begin + system + (items_at_end ? "" : items));
+    bytes.resize(static_cast<std::size_t>(label_size), 0);
+    bytes.insert(bytes.end(), static_cast<std::size_t>(header_records * record), 0xa5);
+    bytes = joinedBytes(bytes, records(r));
+    if (!items_at_end) return bytes;
+    const std::size_t end = bytes.size() + static_cast<std::size_t>(label_size);
+    appendText(bytes, begin + items);
+    bytes.resize(end, 0);
+    return bytes;
+  }
+
+ private:
+  /// Of a place (band, line, sample): what grows slowest, then faster.
+  std::array<std::size_t, 3> slowestFirst() const {
+    if (organization == "BSQ") return {0, 1, 2};
+    if (organization == "BIL") return {1, 0, 2};
+    return {1, 2, 0};
   }
 };
 
@@ -183,11 +187,11 @@ struct Pds3File {
   std::string sample_type = "MSB_INTEGER";
   Store store = Store::kHalf;
   bool big_endian = true;
-  std::string items;        ///< of the label before the image object
-  std::string image_items;  ///< of the image object
-  std::string pixels_file;  ///< detached: their name
-  Bytes between;            ///< between label and pixels, e.g. a VICAR header
-  std::string pointer;      ///< instead of the right ^IMAGE
+  std::string items = {};        ///< of the label before the image object
+  std::string image_items = {};  ///< of the image object
+  std::string pixels_file = {};  ///< detached: their name
+  Bytes between = {};            ///< between label and pixels, e.g. a VICAR header
+  std::string pointer = {};      ///< instead of the right ^IMAGE
 
   static constexpr int kRecord = 128;
 
@@ -198,9 +202,9 @@ struct Pds3File {
   }
   std::string label(const Raster& raster, int records) const {
     const int skipped = records + (static_cast<int>(between.size()) + kRecord - 1) / kRecord;
-    std::string place =
-        pixels_file.empty() ? std::to_string(skipped + 1) : "(\"" + pixels_file + "\",1)";
-    if (!pointer.empty()) place = pointer;
+    const std::string place = !pointer.empty()      ? pointer
+                              : pixels_file.empty() ? std::to_string(skipped + 1)
+                                                    : "(\"" + pixels_file + "\",1)";
     return "PDS_VERSION_ID = PDS3\r\nRECORD_TYPE = FIXED_LENGTH\r\nRECORD_BYTES = " +
            std::to_string(kRecord) + "\r\nLABEL_RECORDS = " + std::to_string(records) + "\r\n" +
            (between.empty() ? "" : "^IMAGE_HEADER = " + std::to_string(records + 1) + "\r\n") +
@@ -218,29 +222,28 @@ struct Pds3File {
     Bytes bytes;
     appendText(bytes, label(raster, records));
     bytes.resize(static_cast<std::size_t>(records * kRecord), ' ');
-    bytes.insert(bytes.end(), between.begin(), between.end());
+    bytes = joinedBytes(bytes, between);
     while (bytes.size() % kRecord != 0) bytes.push_back(' ');
-    const Bytes data = pixels(raster);
-    bytes.insert(bytes.end(), data.begin(), data.end());
-    return bytes;
+    return joinedBytes(bytes, pixels(raster));
   }
 };
+
+inline std::string pds4Axis(const std::string& name, int count, int number) {
+  return "<Axis_Array><axis_name>" + name + "</axis_name><elements>" + std::to_string(count) +
+         "</elements><sequence_number>" + std::to_string(number) +
+         "</sequence_number></Axis_Array>\n";
+}
 
 struct Pds4File {
   std::string data_type = "UnsignedMSB2";
   Store store = Store::kHalf;
   bool big_endian = true;
-  std::string discipline;  ///< inside Discipline_Area
-  std::string constants;   ///< inside Special_Constants
+  std::string discipline = {};  ///< inside Discipline_Area
+  std::string constants = {};   ///< inside Special_Constants
   std::string pixels_file = "pixels.img";
   int offset = 0;
 
   std::string label(const Raster& r) const {
-    const auto axis = [](const char* name, int count, int number) {
-      return "<Axis_Array><axis_name>" + std::string(name) + "</axis_name><elements>" +
-             std::to_string(count) + "</elements><sequence_number>" + std::to_string(number) +
-             "</sequence_number></Axis_Array>\n";
-    };
     const std::string array = r.bands == 1 ? "Array_2D_Image" : "Array_3D_Image";
     const int number = r.bands == 1 ? 1 : 2;
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -257,8 +260,8 @@ struct Pds4File {
            "</axes><axis_index_order>Last Index Fastest</axis_index_order>\n<Element_Array>"
            "<data_type>" +
            data_type + "</data_type></Element_Array>\n" +
-           (r.bands == 1 ? "" : axis("Band", r.bands, 1)) + axis("Line", r.height, number) +
-           axis("Sample", r.width, number + 1) +
+           (r.bands == 1 ? "" : pds4Axis("Band", r.bands, 1)) + pds4Axis("Line", r.height, number) +
+           pds4Axis("Sample", r.width, number + 1) +
            (constants.empty() ? "" : "<Special_Constants>" + constants + "</Special_Constants>\n") +
            "</" + array + "></File_Area_Observational></Product_Observational>\n";
   }
@@ -301,50 +304,57 @@ inline std::string pds3Group(const std::string& name, const GroupItems& items) {
 
 inline std::string vicarProperty(const std::string& name, const GroupItems& items) {
   std::string text = "PROPERTY='" + name + "'  ";
-  for (const auto& [key, value] : items) {
-    std::string quoted = value;
-    for (char& c : quoted)
-      if (c == '"') c = '\'';
-    text += key + "=" + quoted + "  ";
-  }
+  for (const auto& [key, value] : items) text += key + "=" + value + "  ";
+  std::replace(text.begin(), text.end(), '"', '\'');
   return text;
 }
 
-/// What the same groups say in a PDS3 label and in VICAR labels at the beginning and at the end.
-inline std::vector<ImageLabel> labelsOf(
-    const test::TemporaryFolder& folder,
-    const std::vector<std::pair<std::string, GroupItems>>& groups) {
-  Pds3File pds;
-  VicarFile vicar;
-  for (const auto& [name, items] : groups) {
-    pds.items += pds3Group(name, items);
-    vicar.items += vicarProperty(name, items);
+/// A test that writes images with labels into its folder.
+class LabelTest : public FolderTest {
+ protected:
+  ImageLabel readLabelOf(const Pds3File& pds, const Raster& raster = Raster::plain()) const {
+    return readImageLabel(folder_.write("image.img", pds.bytes(raster)));
   }
-  VicarFile at_end = vicar;
-  at_end.items_at_end = true;
-  return {readImageLabel(folder.write("a.img", pds.bytes(Raster::plain()))),
-          readImageLabel(folder.write("a.vic", vicar.bytes(Raster::plain()))),
-          readImageLabel(folder.write("b.vic", at_end.bytes(Raster::plain())))};
+  /// What the same groups say in a PDS3 label and in VICAR labels at the beginning and at the end.
+  std::vector<ImageLabel> labelsOf(
+      const std::vector<std::pair<std::string, GroupItems>>& groups) const {
+    Pds3File pds;
+    VicarFile vicar;
+    for (const auto& [name, items] : groups) {
+      pds.items += pds3Group(name, items);
+      vicar.items += vicarProperty(name, items);
+    }
+    const auto first = folder_.write("first.vic", vicar.bytes(Raster::plain()));
+    vicar.items_at_end = true;
+    const auto last = folder_.write("last.vic", vicar.bytes(Raster::plain()));
+    return {readLabelOf(pds), readImageLabel(first), readImageLabel(last)};
+  }
+  /// The refusal of an image; "(nothing)" when it is read.
+  std::string refusal(const std::filesystem::path& file,
+                      const ImageReadOptions& options = {}) const {
+    return folder_.message([&] { (void)readImage(file, options); });
+  }
+};
+
+inline std::string modelType(const CahvModel& cahv) {
+  return cahv.model == CameraModel::kCahv     ? "CAHV"
+         : cahv.model == CameraModel::kCahvor ? "CAHVOR"
+                                              : "CAHVORE";
 }
 
 /// The group of a camera model; `order` says which component stands where.
 inline GroupItems cameraItems(const CahvModel& cahv, const std::string& order = "CAHVORETP",
                               bool letters = true, bool names = true) {
-  const std::size_t count = cahv.model == CameraModel::kCahv     ? 4
-                            : cahv.model == CameraModel::kCahvor ? 6
-                                                                 : 9;
+  const std::string type = modelType(cahv);
   const std::string all = "CAHVORETP";
+  const std::size_t count = type == "CAHVORE" ? all.size() : type.size();
   const char* const words[] = {"CENTER", "AXIS",     "HORIZONTAL", "VERTICAL", "OPTICAL",
                                "RADIAL", "ENTRANCE", "MTYPE",      "MPARM"};
   const std::string values[] = {
       vectorText(cahv.c_m),  vectorText(cahv.a),  vectorText(cahv.h_px),
       vectorText(cahv.v_px), vectorText(cahv.o),  vectorText(cahv.r),
       vectorText(cahv.e_m),  decimals(cahv.type), decimals(cahv.parameter)};
-  const char* const types[] = {"CAHV", "CAHVOR", "CAHVORE"};
-  GroupItems items{{"MODEL_TYPE",
-                    std::string("\"") +
-                        types[static_cast<int>(cahv.model) - static_cast<int>(CameraModel::kCahv)] +
-                        "\""}};
+  GroupItems items{{"MODEL_TYPE", '"' + type + '"'}};
   std::string ids, titles;
   GroupItems components;
   for (const char letter : order) {

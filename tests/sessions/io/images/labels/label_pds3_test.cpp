@@ -11,15 +11,23 @@
 #include "sessions/io/images/labels/image_label.h"
 #include "sessions/io/images/labels/label_samples.h"
 #include "tests/sessions/io/images/labels/label_fixture.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::TemporaryFolder;
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
+/// A label and its pixels: 8-bit samples in the order of an organization, with bytes before lines.
+class LabelPds3 : public LabelTest {
+ protected:
+  LabelPds3() { pds_.pixels_file = "p.dat"; }
+  std::filesystem::path write(const Raster& raster, const char* organization, int prefix,
+                              const std::string& storage_type = "BAND_SEQUENTIAL") const {
+    const VicarFile stored{Store::kByte, false, organization, prefix};
+    folder_.write("p.dat", stored.records(raster));
+    return folder_.write("c.lbl", altered(pds_.label(raster, 0), "BAND_SEQUENTIAL", storage_type));
+  }
+  Pds3File pds_{"UNSIGNED_INTEGER", Store::kByte};
+};
 
 /// The label with IMAGE and its pointer in an object FILE of its own length of records.
 std::string nested(const std::string& label, const std::string& pointer) {
@@ -32,8 +40,7 @@ std::string nested(const std::string& label, const std::string& pointer) {
   return altered(text, "END_OBJECT = IMAGE\r\n", "END_OBJECT = IMAGE\r\nEND_OBJECT = FILE\r\n");
 }
 
-TEST(LabelPds3, ImageInAnObjectFileIsReadLikeOneAtTheTop) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, ImageInAnObjectFileIsReadLikeOneAtTheTop) {
   Random random(23);
   Pds3File pds;
   pds.pixels_file = "P.DAT";
@@ -42,111 +49,61 @@ TEST(LabelPds3, ImageInAnObjectFileIsReadLikeOneAtTheTop) {
       "2#0000111111111111#\r\n MISSING_CONSTANT = 26\r\n";
   Raster raster = Raster::filled(16, 9, 1, [&](std::size_t) { return 30.0 + random.below(4000); });
   raster.at(0, 3, 5) = 26;
-  const Bytes pixels = pds.pixels(raster);
-  Bytes shifted(128, 0x77);
-  shifted.insert(shifted.end(), pixels.begin(), pixels.end());
-  folder.write("p.dat", pixels);
-  folder.write("q.dat", shifted);
-  const auto flat = folder.write("flat.lbl", pds.label(raster, 0));
+  folder_.write("p.dat", pds.pixels(raster));
+  folder_.write("q.dat", joinedBytes(Bytes(128, 0x77), pds.pixels(raster)));
+  const auto flat = folder_.write("flat.lbl", pds.label(raster, 0));
   const std::string table =
       "OBJECT = FILE\r\nRECORD_BYTES = 7\r\n^TABLE = \"T.DAT\"\r\nEND_OBJECT = FILE\r\n";
   const std::string inner = nested(pds.label(raster, 0), "(\"Q.DAT\",3)");
   for (const std::string& label : {nested(pds.label(raster, 0), "\"P.DAT\""), inner,
                                    altered(inner, "\r\nEND\r\n", "\r\n" + table + "END\r\n")}) {
-    const auto file = folder.write("nested.lbl", label);
-    EXPECT_EQ(readSamples(file).values, readSamples(flat).values) << label;
-    EXPECT_EQ(readLabelSamples(readLabelFiles(file)).invalid_count, 1) << label;
+    SCOPED_TRACE(label);
+    const auto file = folder_.write("nested.lbl", label);
+    EXPECT_EQ(readSamples(file).values, readSamples(flat).values);
+    EXPECT_EQ(readLabelSamples(readLabelFiles(file)).invalid_count, 1);
     const ImageLabel read = readImageLabel(file);
-    ASSERT_TRUE(read.subframe) << label;
-    EXPECT_EQ(read.subframe->first_line, 300);
-    EXPECT_EQ(read.subframe->first_sample, 400);
+    ASSERT_TRUE(read.subframe);
+    EXPECT_EQ(std::pair(read.subframe->first_line, read.subframe->first_sample),
+              std::pair(300, 400));
     EXPECT_EQ(read.bit_depth, readImageLabel(flat).bit_depth);
   }
 }
 
-/// Samples of 8 bits in the order of a word of BAND_STORAGE_TYPE, with bytes before every line.
-Bytes stored(const Raster& r, const std::string& order, int prefix = 0) {
-  Bytes bytes;
-  const auto put = [&](int band, int line, int x) {
-    bytes.push_back(static_cast<std::uint8_t>(r.at(band, line, x)));
-  };
-  const bool by_band = order == "BAND";
-  for (int a = 0; a < (by_band ? r.bands : r.height); ++a)
-    for (int b = 0; b < (by_band ? r.height : 1); ++b) {
-      bytes.insert(bytes.end(), static_cast<std::size_t>(prefix), 0x5a);
-      if (by_band)
-        for (int x = 0; x < r.width; ++x) put(a, b, x);
-      else if (order == "LINE")
-        for (int band = 0; band < r.bands; ++band)
-          for (int x = 0; x < r.width; ++x) put(band, a, x);
-      else
-        for (int x = 0; x < r.width; ++x)
-          for (int band = 0; band < r.bands; ++band) put(band, a, x);
-    }
-  return bytes;
-}
-
-TEST(LabelPds3, BandsAreReadInTheOrderThatTheLabelStates) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, BandsAreReadInTheOrderThatTheLabelStates) {
   Random random(29);
-  Pds3File pds;
-  pds.sample_type = "UNSIGNED_INTEGER";
-  pds.store = Store::kByte;
-  pds.pixels_file = "p.dat";
   const Raster raster =
       Raster::filled(13, 9, 3, [&](std::size_t) { return double(random.below(256)); });
-  const auto read = [&](const std::string& word, const std::string& order, int prefix) {
-    folder.write("p.dat", stored(raster, order, prefix));
-    pds.image_items = prefix > 0 ? " LINE_PREFIX_BYTES = " + std::to_string(prefix) + "\r\n" : "";
-    return folder.write("c.lbl", altered(pds.label(raster, 0), "BAND_SEQUENTIAL", word));
-  };
-  const auto wanted = readImage(read("BAND_SEQUENTIAL", "BAND", 0)).pixels;
-  EXPECT_EQ(wanted[0], std::floor((9798 * raster.at(0, 0, 0) + 19235 * raster.at(1, 0, 0) +
-                                   3735 * raster.at(2, 0, 0) + 16384) /
-                                  32768));
-  EXPECT_EQ(readImage(read("BAND_SEQUENTIAL", "BAND", 12)).pixels, wanted);
-  EXPECT_EQ(readImage(read("\"BAND_SEQUENTIAL\"", "BAND", 0)).pixels, wanted);
-  EXPECT_EQ(readImage(read("LINE_INTERLEAVED", "LINE", 0)).pixels, wanted);
-  EXPECT_THAT(folder.message([&] { readImage(read("LINE_INTERLEAVED", "LINE", 12)); }),
-              HasSubstr("3 bands stored as LINE_INTERLEAVED, 12 bytes before every line, are not"));
+  const auto wanted = readImage(write(raster, "BSQ", 0)).pixels;
+  EXPECT_EQ(wanted[0], raster.luma(0, 0));
+  EXPECT_EQ(readImage(write(raster, "BSQ", 0, "\"BAND_SEQUENTIAL\"")).pixels, wanted);
+  EXPECT_EQ(readImage(write(raster, "BIL", 0, "LINE_INTERLEAVED")).pixels, wanted);
   for (const char* word : {"SAMPLE_INTERLEAVED", "PIXEL_INTERLEAVED", "\"LINE_INTERLEAVED\""})
-    EXPECT_THAT(folder.message([&] { readImage(read(word, "SAMPLE", 0)); }),
-                HasSubstr("BAND_STORAGE_TYPE: "))
-        << word;
-  EXPECT_THAT(folder.message([&] { readImage(read("TILED", "BAND", 0)); }),
-              HasSubstr("3 bands stored as TILED"));
+    EXPECT_THAT(refusal(write(raster, "BIP", 0, word)), HasSubstr("BAND_STORAGE_TYPE: ")) << word;
+  EXPECT_THAT(refusal(write(raster, "BSQ", 0, "TILED")), HasSubstr("3 bands stored as TILED"));
+  pds_.image_items = " LINE_PREFIX_BYTES = 12\r\n";
+  EXPECT_EQ(readImage(write(raster, "BSQ", 12)).pixels, wanted);
+  EXPECT_THAT(refusal(write(raster, "BIL", 12, "LINE_INTERLEAVED")),
+              HasSubstr("3 bands stored as LINE_INTERLEAVED, 12 bytes before every line, are not"));
 }
 
-TEST(LabelPds3, BytesBehindLinesAreRefused) {
-  const TemporaryFolder folder;
-  Pds3File pds;
-  pds.sample_type = "UNSIGNED_INTEGER";
-  pds.store = Store::kByte;
-  pds.pixels_file = "p.dat";
+TEST_F(LabelPds3, BytesBehindLinesAreRefused) {
   const Raster raster = Raster::counting(16, 4);
-  folder.write("p.dat", stored(raster, "BAND", 8));
-  const auto read = [&](const std::string& items) {
-    pds.image_items = items;
-    const auto file = folder.write("s.lbl", pds.label(raster, 0));
-    return folder.message([&] { EXPECT_EQ(readSamples(file).values[16], 16); });
-  };
-  EXPECT_EQ(read(" LINE_PREFIX_BYTES = 8\r\n LINE_SUFFIX_BYTES = 0\r\n"), "(nothing)");
+  pds_.image_items = " LINE_PREFIX_BYTES = 8\r\n LINE_SUFFIX_BYTES = 0\r\n";
+  EXPECT_EQ(readSamples(write(raster, "BSQ", 8)).values[16], 16);
   for (const char* items :
-       {" LINE_PREFIX_BYTES = 4\r\n LINE_SUFFIX_BYTES = 4\r\n", " LINE_SUFFIX_BYTES = 4\r\n"})
-    EXPECT_EQ(read(items),
-              "s.lbl: LINE_SUFFIX_BYTES: bytes behind every line of the image are not read");
+       {" LINE_PREFIX_BYTES = 4\r\n LINE_SUFFIX_BYTES = 4\r\n", " LINE_SUFFIX_BYTES = 4\r\n"}) {
+    pds_.image_items = items;
+    EXPECT_EQ(refusal(write(raster, "BSQ", 8)),
+              "c.lbl: LINE_SUFFIX_BYTES: bytes behind every line of the image are not read");
+  }
 }
 
-TEST(LabelPds3, SampleTypesThatWouldBeReadOtherwiseAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, SampleTypesThatWouldBeReadOtherwiseAreRefused) {
   const Raster raster = Raster::counting(16, 4);
   const auto read = [&](const char* type, Store store, bool big_endian = true) {
-    Pds3File pds;
-    pds.sample_type = type;
-    pds.store = store;
-    pds.big_endian = big_endian;
-    const auto file = folder.write("t.img", pds.bytes(raster));
-    return folder.message([&] { EXPECT_EQ(readSamples(file).values[0], 0); });
+    const Pds3File pds{type, store, big_endian};
+    const auto file = folder_.write("t.img", pds.bytes(raster));
+    return folder_.message([&] { EXPECT_EQ(readSamples(file).values[0], 0); });
   };
   EXPECT_THAT(read("IEEE_REAL", Store::kHalf), HasSubstr("IEEE_REAL and 16 bits are not read"));
   EXPECT_THAT(read("MSB_INTEGER", Store::kDouble), HasSubstr("MSB_INTEGER and 64 bits are not"));
@@ -157,20 +114,16 @@ TEST(LabelPds3, SampleTypesThatWouldBeReadOtherwiseAreRefused) {
   EXPECT_EQ(read("\"LSB_INTEGER\"", Store::kHalf, false), "(nothing)");
 }
 
-TEST(LabelPds3, PointersAreUnderstoodOrRefused) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, PointersAreUnderstoodOrRefused) {
   const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
-  folder.write("p.dat", pds.pixels(raster));
-  Bytes shifted(100, 0x55);
-  const Bytes pixels = pds.pixels(raster);
-  shifted.insert(shifted.end(), pixels.begin(), pixels.end());
-  folder.write("q q.dat", shifted);
+  folder_.write("p.dat", pds.pixels(raster));
+  folder_.write("q q.dat", joinedBytes(Bytes(100, 0x55), pds.pixels(raster)));
   const auto read = [&](const std::string& place, const std::string& from = "RECORD_TYPE",
                         const std::string& to = "RECORD_TYPE") {
     pds.pointer = place;
-    const auto file = folder.write("d.lbl", altered(pds.label(raster, 0), from, to));
-    return folder.message([&] { EXPECT_EQ(readSamples(file).values[63], 63) << place; });
+    const auto file = folder_.write("d.lbl", altered(pds.label(raster, 0), from, to));
+    return folder_.message([&] { EXPECT_EQ(readSamples(file).values[63], 63) << place; });
   };
   for (const char* place : {"\"P.DAT\"", "(\"P.DAT\")", "( \"p.dat\" , 1 )",
                             "(\"Q Q.DAT\", 101 <BYTES>)", "(\"Q Q.DAT\",101<BYTES>)"})
@@ -187,38 +140,34 @@ TEST(LabelPds3, PointersAreUnderstoodOrRefused) {
               HasSubstr("LINES: the label's object IMAGE states 4, but it would be read as 8"));
 }
 
-TEST(LabelPds3, OfSeveralImagesTheFirstIsReadAndNothingOfTheOthers) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, OfSeveralImagesTheFirstIsReadAndNothingOfTheOthers) {
   const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
   pds.pixels_file = "p.dat";
-  folder.write("p.dat", pds.pixels(raster));
+  folder_.write("p.dat", pds.pixels(raster));
   const std::string second =
       "END_OBJECT = IMAGE\r\nOBJECT = IMAGE\r\n LINES = 2\r\n LINE_SAMPLES = 3\r\n SAMPLE_BITS = 8"
       "\r\n MISSING_CONSTANT = 5\r\nEND_OBJECT = IMAGE\r\n";
   const auto file =
-      folder.write("d.lbl", altered(pds.label(raster, 0), "END_OBJECT = IMAGE\r\n", second));
+      folder_.write("d.lbl", altered(pds.label(raster, 0), "END_OBJECT = IMAGE\r\n", second));
   const GrayImage image = readImage(file);
   EXPECT_THAT(image.notes, Contains("the label has 2 objects IMAGE; the first is read"));
-  EXPECT_EQ(image.rule.find("without a value"), std::string::npos);
+  EXPECT_THAT(image.rule, Not(HasSubstr("without a value")));
   EXPECT_EQ(readSamples(file).values[5], 5);
 }
 
-TEST(LabelPds3, HashIsOfTheLabelAndThePixelsAsTheyAre) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, HashIsOfTheLabelAndThePixelsAsTheyAre) {
   const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
   pds.pointer = "\"P.DAT\"";
   pds.items = "^BROWSE_IMAGE = \"B.DAT\"\r\nEXPOSURE = 1.5D-03\r\n";
   const std::string label = pds.label(raster, 0);
-  const Bytes pixels = pds.pixels(raster);
-  folder.write("p.dat", pixels);
-  folder.write("b.dat", "a picture to look at");
-  const auto file = folder.write("d.lbl", label);
-  Bytes both(label.begin(), label.end());
-  both.insert(both.end(), pixels.begin(), pixels.end());
+  folder_.write("p.dat", pds.pixels(raster));
+  folder_.write("b.dat", "a picture to look at");
+  const auto file = folder_.write("d.lbl", label);
+  const Bytes both = joinedBytes({label.begin(), label.end()}, pds.pixels(raster));
   EXPECT_EQ(readImage(file).file_sha256, sha256Text(both));
-  std::filesystem::remove(folder / "b.dat");
+  std::filesystem::remove(folder_ / "b.dat");
   EXPECT_EQ(readImage(file).file_sha256, sha256Text(both));
   const LabelFiles files = readLabelFiles(file);
   ASSERT_EQ(files.parts.size(), 2u);
@@ -227,14 +176,10 @@ TEST(LabelPds3, HashIsOfTheLabelAndThePixelsAsTheyAre) {
   EXPECT_EQ(files.parts[1].name, "P.DAT");
 }
 
-TEST(LabelPds3, LabelThatDoesNotEndIsRefusedSoon) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, LabelThatDoesNotEndIsRefusedSoon) {
   std::string keys = "PDS_VERSION_ID = PDS3\r\n";
   for (int i = 0; keys.size() < (5u << 20); ++i) keys += "K" + std::to_string(i) + " = 1\r\n";
-  const auto read = [&](const std::string& text) {
-    const auto file = folder.write("k.img", text);
-    return folder.message([&] { readSamples(file); });
-  };
+  const auto read = [&](const std::string& text) { return refusal(folder_.write("k.img", text)); };
   EXPECT_EQ(read(keys + "END\r\n"),
             "k.img: the PDS3 label has no line END within the file's first 4 MB");
   EXPECT_THAT(read("PDS_VERSION_ID = PDS3\r\n^IMAGE = 1\r\n\r\nthis is none\r\nEND\r\n"),
@@ -244,14 +189,13 @@ TEST(LabelPds3, LabelThatDoesNotEndIsRefusedSoon) {
   EXPECT_THAT(read(deep + "END\r\n"), HasSubstr("describes no image that can be read"));
 }
 
-TEST(LabelPds3, LinesAreReadAsStoredWhateverTheirDisplay) {
-  const TemporaryFolder folder;
+TEST_F(LabelPds3, LinesAreReadAsStoredWhateverTheirDisplay) {
   const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
   pds.image_items = " LINE_DISPLAY_DIRECTION = DOWN\r\n SAMPLE_DISPLAY_DIRECTION = RIGHT\r\n";
-  EXPECT_TRUE(readImage(folder.write("a.img", pds.bytes(raster))).notes.empty());
+  EXPECT_THAT(readImage(folder_.write("a.img", pds.bytes(raster))).notes, IsEmpty());
   pds.image_items = " LINE_DISPLAY_DIRECTION = UP\r\n SAMPLE_DISPLAY_DIRECTION = LEFT\r\n";
-  const auto file = folder.write("a.img", pds.bytes(raster));
+  const auto file = folder_.write("a.img", pds.bytes(raster));
   EXPECT_EQ(readSamples(file).values[1], 1);
   EXPECT_THAT(readImage(file).notes,
               Contains(HasSubstr("display order differs from its storage order (UP, LEFT)")));
