@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // BOP datasets in evaluate, info and new.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/io/datasets/dataset_file.h"
 #include "sessions/session/session_file.h"
+#include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/approach_files.h"
 #include "tests/support/bop_results.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
-
-using testing::HasSubstr;
 
 const std::filesystem::path kRendered = BORESIGHT_SYNTHETIC_EXAMPLE;
 
@@ -37,21 +34,14 @@ class WhsBop : public testing::Test {
   }
 
   void writeModel(const sessions::SceneMesh& mesh) {
+    Solid model;
+    model.faces = mesh.faces;
     Eigen::AlignedBox3f box;
-    std::string text = "ply\nformat ascii 1.0\nelement vertex " +
-                       std::to_string(mesh.vertices_in_station_m.size()) +
-                       "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                       std::to_string(mesh.faces.size()) +
-                       "\nproperty list uchar int vertex_indices\nend_header\n";
     for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
-      const Eigen::Vector3f v_mm = 1000.0F * vertex;
-      box.extend(v_mm);
-      for (int i = 0; i < 3; ++i) text += std::to_string(v_mm[i]) + (i < 2 ? " " : "\n");
+      model.vertices.emplace_back(1000.0F * vertex);
+      box.extend(model.vertices.back());
     }
-    for (const Face& face : mesh.faces)
-      text += "3 " + std::to_string(face.vertex[0]) + " " + std::to_string(face.vertex[1]) + " " +
-              std::to_string(face.vertex[2]) + "\n";
-    folder_.write("set/models/obj_000005.ply", text);
+    folder_.write("set/models/obj_000005.ply", plyOf(model));
     nlohmann::json info = {{"diameter", box.diagonal().norm()}};
     const char* axes[] = {"x", "y", "z"};
     for (int i = 0; i < 3; ++i) {
@@ -73,7 +63,7 @@ TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
           "--pivot", "camera", "--out", folder_ / "r.sqlite", "--jsonl", folder_ / "r.jsonl",
           "--bop-csv", csv},
          0);
-  const auto result = nlohmann::json::parse(folder_.read("r.jsonl"));
+  const auto result = jsonOf(folder_ / "r.jsonl");
   EXPECT_EQ(result["id"], "000003-000004-000005");
   ASSERT_TRUE(result["completed"]) << result["message"];
   const auto& error = result["error"];
@@ -91,13 +81,10 @@ TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
   EXPECT_LT(perturbationBetween(rows[0].camera_from_station, truth_).norm(), 2e-3);
 }
 
-TEST_F(WhsBop, SaysWhatIsInIt) {
-  const ProgramRun run = runWhs({"info", set_}, 0);
-  EXPECT_THAT(run.out, HasSubstr("BOP dataset\n  1 case, 1 station, 1 camera"));
-  EXPECT_THAT(run.out, HasSubstr("station obj_000005: 1 case, 1 part"));
-}
-
-TEST_F(WhsBop, BecomesASession) {
+TEST_F(WhsBop, IsDescribedAndBecomesASession) {
+  EXPECT_THAT(runWhs({"info", set_}, 0).out,
+              AllOf(HasSubstr("BOP dataset\n  1 case, 1 station, 1 camera"),
+                    HasSubstr("station obj_000005: 1 case, 1 part")));
   const std::string file = folder_ / "s.boresight.json";
   runWhs({"new", "--dataset", set_, "--obj", "5", "--out", file}, 0);
   const sessions::Session session = sessions::readSessionFile(file).session;
@@ -111,11 +98,10 @@ TEST_F(WhsBop, AmbiguousSelection_IsRefused) {
   const std::string file = kRendered / "dataset.json";
   EXPECT_THAT(runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out}, 2).err,
               HasSubstr("choose of a BOP folder"));
-  const ProgramRun csv =
-      runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out}, 3);
-  EXPECT_THAT(csv.err, HasSubstr("is not part of a BOP dataset"));
-  const ProgramRun scene = runWhs({"info", set_, "--scene", "9"}, 3);
-  EXPECT_THAT(scene.err, HasSubstr("has no scene 000009"));
+  EXPECT_THAT(
+      runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out}, 3).err,
+      HasSubstr("is not part of a BOP dataset"));
+  EXPECT_THAT(runWhs({"info", set_, "--scene", "9"}, 3).err, HasSubstr("has no scene 000009"));
 }
 
 }  // namespace

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // From an image as a mission sends it, its camera model in the label and the station's seed in
 // another frame, to a pose that is handed over.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "sessions/io/cameras/cahvor_file.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
+#include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/downlink_image.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
 
 using nlohmann::json;
 using sessions::FrameName;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 const FrameName kRover{"ROVER_FRAME", {194, 835, 1}};
 const FrameName kSite{"SITE_FRAME", {194}};
@@ -66,32 +64,25 @@ class Downlink : public ::testing::Test {
 
   Arguments newArguments(bool with_transform) const {
     const std::string mesh = exampleFolder() / "os" / "model.ply";
-    Arguments arguments = {"new", "--image", image_, "--mesh", mesh, "--mesh-unit", "m"};
-    arguments.insert(arguments.end(), {"--seed", seed_, "--id", "sol12", "--feature-size", "0.018",
-                                       "--set", kNoSearch, "--out", session_});
-    if (with_transform) arguments.insert(arguments.end(), {"--frames", transform_});
-    return arguments;
+    const Arguments arguments = {"new",   "--image", image_,    "--mesh", mesh,    "--mesh-unit",
+                                 "m",     "--seed",  seed_,     "--id",   "sol12", "--feature-size",
+                                 "0.018", "--set",   kNoSearch, "--out",  session_};
+    return with_transform ? with(arguments, {"--frames", transform_}) : arguments;
+  }
+
+  /// `whs localize` of the image by its own label, with a seed and more.
+  ProgramRun localize(const std::string& seed, std::map<std::string, std::string> more = {}) const {
+    more.insert({{"--image", image_}, {"--camera", ""}, {"--seed", seed}, {"--out", result_}});
+    return runWhs(localizeArguments(more), 0);
   }
 
   TemporaryFolder folder_;
+  const std::string result_ = folder_ / "result.json";
   std::filesystem::path image_, transform_;
   std::string seed_;
   std::string session_ = folder_ / "s.boresight.json";
   Pose truth_;
 };
-
-Pose poseOf(const json& matrix) {
-  Eigen::Matrix3d rotation;
-  Pose pose;
-  for (int row = 0; row < 3; ++row) {
-    const json& numbers = matrix[static_cast<std::size_t>(row)];
-    for (int column = 0; column < 3; ++column)
-      rotation(row, column) = numbers[static_cast<std::size_t>(column)];
-    pose.translation_m[row] = numbers[3];
-  }
-  pose.rotation = Eigen::Quaterniond(rotation);
-  return pose;
-}
 
 /// The station's origin and axes in whatever frame, as far off as is required.
 void expectNear(const Pose& found, const Pose& expected) {
@@ -101,7 +92,7 @@ void expectNear(const Pose& found, const Pose& expected) {
 
 TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   runWhs(newArguments(true), 0);
-  const ProgramRun run = runWhs({"run", session_}, 0);
+  runWhs({"run", session_}, 0);
   // Three sigma across the view axis are 0.42 mm at the camera, 0.4 mm are required.
   const ProgramRun decided =
       runWhs({"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment",
@@ -112,11 +103,11 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   runWhs({"export", session_, "--case", "sol12", "--pose", file}, 0);
   runWhs({"verify", file}, 0);
 
-  const ProgramRun told = runWhs({"info", file}, 0);
-  EXPECT_THAT(told.out, HasSubstr("case sol12: validated by Ada"));
-  EXPECT_THAT(told.out, HasSubstr("in SITE_FRAME (194)\nreference_from_station\n"));
+  EXPECT_THAT(runWhs({"info", file}, 0).out,
+              AllOf(HasSubstr("case sol12: validated by Ada"),
+                    HasSubstr("in SITE_FRAME (194)\nreference_from_station\n")));
 
-  const json pose = json::parse(folder_.read("pose.json"));
+  const json pose = jsonOf(file);
   expectNear(poseOf(pose["pose"]["camera_from_station"]), truth_);
   const json& site = pose["frames"]["SITE_FRAME (194)"];
   EXPECT_EQ(site["joined_by"], "site_from_rover.json: by hand, sol 12");
@@ -125,11 +116,8 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   expectNear(poseOf(site["reference_from_station"]), siteFromRover() * roverFromCamera() * truth_);
   EXPECT_THAT(pose["image_label"].dump(), HasSubstr(R"(["PRODUCT_ID","1F483288473"])"));
   EXPECT_THAT(pose["chain"].dump(), HasSubstr("site_from_rover.json, sha256 "));
-}
 
-TEST_F(Downlink, GoesToColmapWithTheErrorOfItsCamera) {
-  runWhs(newArguments(true), 0);
-  runWhs({"run", session_}, 0);
+  // COLMAP has no such camera: it gets another, with its error.
   const std::string colmap = folder_ / "colmap";
   EXPECT_THAT(runWhs({"export", session_, "--poses", "handed-over", "--colmap", colmap}, 0).err,
               HasSubstr("its cahvor camera is written as brown_conrady, worst error "));
@@ -137,38 +125,44 @@ TEST_F(Downlink, GoesToColmapWithTheErrorOfItsCamera) {
   EXPECT_THAT(folder_.read("colmap/cameras.txt"), HasSubstr("OPENCV"));
 }
 
-TEST_F(Downlink, WithoutTheTransformNothingIsConverted) {
-  const ProgramRun refused = runWhs(newArguments(false), 3);
-  EXPECT_EQ(refused.errorLines(), 1) << refused.err;
-  EXPECT_THAT(refused.err, HasSubstr("the pose is given in SITE_FRAME (194), but the camera model "
-                                     "in ROVER_FRAME (194, 835, 1)"));
+TEST_F(Downlink, WhatIsMissing_IsAskedFor) {
+  EXPECT_THAT(refusal(newArguments(false)),
+              HasSubstr("the pose is given in SITE_FRAME (194), but the camera model in "
+                        "ROVER_FRAME (194, 835, 1)"));
   EXPECT_FALSE(std::filesystem::exists(session_));
+  EXPECT_THAT(runWhs(localizeArguments({{"--camera", ""}}), 3).err,
+              HasSubstr("the image has no label with a camera model"));
+  const std::string bare =
+      folder_.write("bare.vic", vicarImage(16, 12, std::vector<std::uint16_t>(192), ""));
+  EXPECT_THAT(runWhs(localizeArguments({{"--image", bare}, {"--camera", ""}}), 3).err,
+              HasSubstr("give a camera.json or a .cahvor file with --camera"));
 }
 
-TEST_F(Downlink, IsLocalizedByItsOwnLabel) {
+TEST_F(Downlink, IsLocalizedByItsOwnLabelInTheFrameThatItsSeedIsGivenIn) {
+  const std::string record = folder_ / "run.whsr";
   const std::string seed = writeSeed("rover.json", osExample().seed, kRover);
-  const std::string out = folder_ / "result.json";
-  const ProgramRun run = runWhs(
-      localizeArguments(
-          {{"--image", image_.string()}, {"--camera", ""}, {"--seed", seed}, {"--out", out}}),
-      0);
-  const json result = json::parse(folder_.read("result.json"));
+  ProgramRun run = localize(seed, {{"--record", record}});
+  json result = jsonOf(result_);
   expectNear(poseOf(result["camera_from_station"]), truth_);
   expectNear(poseOf(result["frames"]["ROVER_FRAME (194, 835, 1)"]["reference_from_station"]),
              roverFromCamera() * truth_);
   EXPECT_THAT(run.out, HasSubstr("\nreference_from_station in ROVER_FRAME (194, 835, 1)\n"));
-}
 
-TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
-  const std::string out = folder_ / "result.json";
-  const ProgramRun run = runWhs(localizeArguments({{"--image", image_.string()},
-                                                   {"--camera", ""},
-                                                   {"--seed", seed_},
-                                                   {"--out", out},
-                                                   {"--frames", transform_.string()}}),
-                                0);
-  const json frames = json::parse(folder_.read("result.json"))["frames"];
-  expectNear(poseOf(frames["SITE_FRAME (194)"]["reference_from_station"]),
+  const std::string described =
+      runWhs({"info", image_.string(), seed_, transform_.string(), record}, 0).out;
+  for (const char* text : {"PRODUCT_ID: 1F483288473", "vectors in ROVER_FRAME (194, 835, 1)",
+                           "reference_from_station in SITE_FRAME (194)",
+                           "\nreference_from_station\n", "  uncertainty ", "\ntarget_from_source\n",
+                           "from ROVER_FRAME (194, 835, 1) to SITE_FRAME (194): by hand",
+                           "image 1024 x 1024 px", "converged, digest "})
+    EXPECT_THAT(described, HasSubstr(text));
+  EXPECT_THAT(described, Not(HasSubstr("missing: ")));
+  EXPECT_THAT(runWhs({"info", seed_, transform_.string()}, 0).out,
+              Not(HasSubstr("camera_from_station")))
+      << "each matrix has the name of what it is";
+
+  run = localize(seed_, {{"--frames", transform_}});
+  expectNear(poseOf(jsonOf(result_)["frames"]["SITE_FRAME (194)"]["reference_from_station"]),
              siteFromRover() * roverFromCamera() * truth_);
   EXPECT_THAT(run.out, HasSubstr("\nreference_from_station in SITE_FRAME (194)\n"));
 }
@@ -188,16 +182,8 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
                         "  ORIGIN_ROTATION_QUATERNION=(" + vicarNumber(turn.w()) + "," +
                         vicarNumber(turn.x()) + "," + vicarNumber(turn.y()) + "," +
                         vicarNumber(turn.z()) + ")  "));
-  const auto localized = [this](const std::string& transform) {
-    return runWhs(localizeArguments({{"--image", image_.string()},
-                                     {"--camera", ""},
-                                     {"--seed", seed_},
-                                     {"--out", folder_ / "result.json"},
-                                     {"--frames", transform}}));
-  };
-  const ProgramRun agrees = localized(transform_.string());
-  EXPECT_EQ(agrees.err, "");
-  EXPECT_FALSE(json::parse(folder_.read("result.json")).contains("warnings"));
+  EXPECT_EQ(localize(seed_, {{"--frames", transform_}}).err, "");
+  EXPECT_FALSE(jsonOf(result_).contains("warnings"));
 
   Pose moved = siteFromRover();
   moved.translation_m.z() += 0.01;
@@ -205,77 +191,33 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
   const std::string warning =
       "site_from_rover.json and the image's label differ about where ROVER_FRAME (194, 835, 1) is "
       "in SITE_FRAME (194): by 10.0 mm and 0.00 deg";
-  const ProgramRun warned = localized(transform_.string());
-  EXPECT_EQ(warned.exit_code, 0) << warned.err;
-  EXPECT_EQ(warned.err, "whs: " + warning + "\n");
-  EXPECT_EQ(json::parse(folder_.read("result.json"))["warnings"], json::array({warning}));
-  const ProgramRun run = runWhs(newArguments(true), 0);
-  EXPECT_EQ(run.err, "whs: case sol12: " + warning + "\n");
-}
-
-TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
-  const std::string rover = writeSeed("rover.json", osExample().seed, kRover);
-  const std::string record = folder_ / "run.whsr";
-  runWhs(localizeArguments({{"--image", image_.string()},
-                            {"--camera", ""},
-                            {"--seed", rover},
-                            {"--record", record}}),
-         0);
-  const ProgramRun run = runWhs({"info", image_.string(), seed_, transform_.string(), record}, 0);
-  EXPECT_THAT(run.out, HasSubstr("PRODUCT_ID: 1F483288473"));
-  EXPECT_THAT(run.out, HasSubstr("vectors in ROVER_FRAME (194, 835, 1)"));
-  EXPECT_THAT(run.out, HasSubstr("reference_from_station in SITE_FRAME (194)"));
-  EXPECT_THAT(run.out, HasSubstr("from ROVER_FRAME (194, 835, 1) to SITE_FRAME (194): by hand"));
-  EXPECT_THAT(run.out, HasSubstr("image 1024 x 1024 px"));
-  EXPECT_THAT(run.out, HasSubstr("converged, digest "));
-  EXPECT_THAT(run.out, Not(HasSubstr("missing: ")));
-}
-
-/// Each matrix under the name of what it is.
-TEST_F(Downlink, PosesAreToldInTheFramesThatTheyAreIn) {
-  const ProgramRun run = runWhs({"info", seed_, transform_.string()}, 0);
-  EXPECT_THAT(run.out, HasSubstr("\nreference_from_station\n"));
-  EXPECT_THAT(run.out, HasSubstr("\ntarget_from_source\n"));
-  EXPECT_THAT(run.out, HasSubstr("  uncertainty "));
-  EXPECT_THAT(run.out, Not(HasSubstr("camera_from_station")));
-}
-
-TEST_F(Downlink, WithoutACameraModelOneIsAskedFor) {
-  const auto bare =
-      folder_.write("bare.vic", vicarImage(16, 12, std::vector<std::uint16_t>(192), ""));
-  EXPECT_THAT(runWhs(localizeArguments({{"--image", bare.string()}, {"--camera", ""}}), 3).err,
-              HasSubstr("give a camera.json or a .cahvor file with --camera"));
+  EXPECT_EQ(localize(seed_, {{"--frames", transform_}}).err, "whs: " + warning + "\n");
+  EXPECT_EQ(jsonOf(result_)["warnings"], json::array({warning}));
+  EXPECT_EQ(runWhs(newArguments(true), 0).err, "whs: case sol12: " + warning + "\n");
 }
 
 TEST_F(Downlink, OfADataSetIsEvaluated) {
-  json dataset = json::parse(
-      std::string(R"({"format": "boresight-dataset", "version": 1, "stations": {}, "cases": []})"));
+  json dataset = {{"format", "boresight-dataset"}, {"version", 1}};
   dataset["requirement"] = {{"normal_mm", 0.4}, {"lateral_mm", 0.4}, {"rotation_deg", 0.25}};
   dataset["transforms"] = {"site_from_rover.json"};
   dataset["stations"]["os"] = {{"mesh", (exampleFolder() / "os" / "model.ply").string()},
                                {"mesh_unit", "m"},
                                {"feature_size_m", 0.018}};
   json value = {{"id", "sol12"}, {"station", "os"}, {"image", "1F483288473.IMG"}};
-  value["seed"] = json::parse(folder_.read("seed.json"));
+  value["seed"] = jsonOf(seed_);
   value["truth"]["camera_from_station"] = json::parse(sessions::toJson(truth_).dump());
   dataset["cases"] = json::array({value});
-  const std::string file = folder_.write("dataset.json", dataset.dump()).string();
-  const std::string out = folder_ / "r.jsonl";
-  runWhs({"evaluate", "--dataset", file, "--out", folder_ / "r.sqlite", "--jsonl", out, "--set",
-          kNoSearch},
+  const std::string file = folder_.write("dataset.json", dataset.dump());
+  runWhs({"evaluate", "--dataset", file, "--out", folder_ / "r.sqlite", "--jsonl",
+          folder_ / "r.jsonl", "--set", kNoSearch},
          0);
-  EXPECT_EQ(json::parse(folder_.read("r.jsonl"))["success"], true) << folder_.read("r.jsonl");
-}
-
-TEST_F(Downlink, WithoutALabelACameraIsAskedFor) {
-  EXPECT_THAT(runWhs(localizeArguments({{"--camera", ""}}), 3).err,
-              HasSubstr("the image has no label with a camera model"));
+  EXPECT_EQ(jsonOf(folder_ / "r.jsonl")["success"], true) << folder_.read("r.jsonl");
 }
 
 TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   const std::string text = folder_ / "left.cahvor";
   runWhs({"camera", image_.string(), "--out", text}, 0);
-  const sessions::CameraFile again = sessions::readCameraFile(std::filesystem::path(text));
+  const sessions::CameraFile again = sessions::readCameraFile(text);
   Eigen::Vector2d expected, found;
   const Eigen::Vector3d point_m(0.05, -0.03, 0.4);
   ASSERT_TRUE(project(labelCamera(), point_m, expected));
@@ -285,15 +227,14 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   const std::string fitted = folder_ / "brown.json";
   EXPECT_THAT(runWhs({"camera", image_.string(), "--as", "brown_conrady", "--out", fitted}, 0).out,
               HasSubstr("worst error "));
-  ASSERT_TRUE(project(sessions::readCamera(std::filesystem::path(fitted)), point_m, found));
-  EXPECT_LT((expected - found).norm(),
-            json::parse(folder_.read("brown.json"))["fitted_from"]["worst_error_px"]);
+  ASSERT_TRUE(project(sessions::readCamera(fitted), point_m, found));
+  EXPECT_LT((expected - found).norm(), jsonOf(fitted)["fitted_from"]["worst_error_px"]);
   sessions::CahvorFile with_covariance = sessions::readCahvorFile(text);
   with_covariance.covariance = 1e-8 * Eigen::MatrixXd::Identity(18, 18);
   const std::string other_ending = folder_ / "left.cahvore";
   sessions::writeCahvorFile(other_ending, with_covariance);
   runWhs({"camera", other_ending, "--out", folder_ / "left.json"}, 0);
-  EXPECT_TRUE(json::parse(folder_.read("left.json")).contains("covariance"));
+  EXPECT_TRUE(jsonOf(folder_ / "left.json").contains("covariance"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
               HasSubstr("the vectors belong to a cahvor model"));
   runWhs({"camera", image_.string()}, 2);
@@ -339,9 +280,7 @@ struct Runs {
 TEST(WhsCompare, TakesRecordsTracesAndRunsOfSessions) {
   const Runs runs;
   const auto exitOf = [](const Arguments& arguments) {
-    Arguments all = {"compare"};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    const ProgramRun run = runWhs(all);
+    const ProgramRun run = runWhs(with({"compare"}, arguments));
     EXPECT_EQ(run.exit_code == 0, run.out.starts_with("equal to the bit")) << run.out;
     return run.exit_code;
   };
@@ -360,17 +299,19 @@ TEST(WhsCompare, TakesRecordsTracesAndRunsOfSessions) {
   EXPECT_EQ(exitOf({runs.record}), 2);
   EXPECT_EQ(exitOf({runs.session, runs.session, "--case", kOsCase}), 2);
   EXPECT_EQ(exitOf({runs.record, runs.session, "--case", "none"}), 3);
+  const std::string record = runs.folder.read("run.whsr");
+  runWhs({"compare", runs.record, runs.folder.write("cut.whsr", record.substr(0, 4000))}, 5);
+  EXPECT_THAT(runWhs({"compare", runs.record, runs.folder.write("no.whsr", "no record")}, 3).err,
+              HasSubstr("no.whsr"));
 }
 
 TEST(WhsNew, AttachesAnOnboardRecordToItsOneCase) {
   const Runs runs;
   const std::string text = runs.folder / "made.boresight.json";
-  const std::string dataset = exampleFolder() / "dataset.json";
-  runWhs({"new", "--dataset", dataset, "--record", runs.record, "--out", text}, 2);
-  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.trace, "--out", text},
-         3);
-  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.record, "--out", text},
-         0);
+  const Arguments arguments = {"new", "--dataset", exampleDataset(), "--out", text};
+  runWhs(with(arguments, {"--record", runs.record}), 2);
+  runWhs(with(arguments, {"--case", kOsCase, "--record", runs.trace}), 3);
+  runWhs(with(arguments, {"--case", kOsCase, "--record", runs.record}), 0);
   runWhs({"compare", text, "--case", kOsCase, "--rerun"}, 0);
 }
 
@@ -389,7 +330,7 @@ TEST(WhsCompare, RunsTheCaseByTheRecordsOptions) {
   const Runs runs;
   runWhs(localizeArguments({{"--record", runs.record}, {"--set", "pnp.seed=7"}}), 0);
   EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase}, 6).out,
-              HasSubstr("first difference: options"));
+              HasSubstr("first difference: options: the option pnp.seed"));
   runWhs({"compare", runs.record, runs.session, "--case", kOsCase, "--rerun"}, 0);
 }
 

@@ -1,49 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 
 #include "sessions/evaluation/results_file.h"
 #include "tests/app/ended_whs.h"
 #include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/approach_files.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 class WhsFollow : public testing::Test {
  protected:
   Arguments followArguments(const std::filesystem::path& images, const Arguments& more = {}) const {
     const TemporaryFolder& approach = approachFolder();
-    Arguments arguments = {"follow",
-                           "--images",
-                           images,
-                           "--camera",
-                           approach / "camera.json",
-                           "--mesh",
-                           approach / "model.ply",
-                           "--mesh-unit",
-                           "m",
-                           "--seed",
-                           approach / "seed.json",
-                           "--out",
-                           folder_ / "r.sqlite",
-                           "--jsonl",
-                           folder_ / "r.jsonl"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    const Arguments inputs = {"follow",
+                              "--images",
+                              images,
+                              "--camera",
+                              approach / "camera.json",
+                              "--mesh",
+                              approach / "model.ply",
+                              "--mesh-unit",
+                              "m",
+                              "--seed",
+                              approach / "seed.json"};
+    return with(with(inputs, {"--out", results_, "--jsonl", folder_ / "r.jsonl"}), more);
   }
   std::vector<nlohmann::json> lines() const { return jsonLines(folder_.read("r.jsonl")); }
   const TemporaryFolder folder_;
+  const std::string results_ = folder_ / "r.sqlite";
 };
 
-TEST_F(WhsFollow, Folder_IsFollowedFrameByFrame) {
-  const ProgramRun run = runWhs(followArguments(approachFolder() / "frames"), 0);
+TEST_F(WhsFollow, Folder_IsFollowedFrameByFrameAndItsResultsAreContinued) {
+  const std::filesystem::path images = approachFolder() / "frames";
+  const ProgramRun run = runWhs(followArguments(images), 0);
   EXPECT_EQ(run.err, "") << "progress belongs on a terminal only";
   EXPECT_THAT(run.out, AllOf(HasSubstr("6 of 6 frames accepted; "), HasSubstr(" frames/s\n")));
   const auto results = lines();
@@ -60,9 +52,14 @@ TEST_F(WhsFollow, Folder_IsFollowedFrameByFrame) {
         EXPECT_NEAR(result["camera_from_station_seed"][row][column].get<double>(),
                     before["camera_from_station"][row][column].get<double>(), 1e-12);
   }
-  const sessions::Results stored = sessions::readResults(folder_ / "r.sqlite");
+  const sessions::Results stored = sessions::readResults(results_);
   EXPECT_EQ(stored.runs.size(), 6u);
   EXPECT_EQ(stored.facts.dataset.cases, 6);
+
+  EXPECT_THAT(runWhs(followArguments(images), 0).err, HasSubstr("resumed, 6 frames are done"));
+  EXPECT_EQ(lines(), results);
+  EXPECT_THAT(runWhs(followArguments(images, {"--motion", "2", "0.5"}), 3).err,
+              HasSubstr("its runs belong to another dataset"));
 }
 
 TEST_F(WhsFollow, UnreadableAndOtherSizedFrames_AreLostWithTheirReason) {
@@ -80,16 +77,6 @@ TEST_F(WhsFollow, UnreadableAndOtherSizedFrames_AreLostWithTheirReason) {
   EXPECT_EQ(lines()[1]["status"], "input_error");
 }
 
-TEST_F(WhsFollow, SecondCommand_ContinuesTheResultsOfTheFirst) {
-  const std::filesystem::path images = approachFolder() / "frames";
-  runWhs(followArguments(images), 0);
-  const auto whole = lines();
-  EXPECT_THAT(runWhs(followArguments(images), 0).err, HasSubstr("resumed, 6 frames are done"));
-  EXPECT_EQ(lines(), whole);
-  const ProgramRun other = runWhs(followArguments(images, {"--motion", "2", "0.5"}), 3);
-  EXPECT_THAT(other.err, HasSubstr("its runs belong to another dataset"));
-}
-
 TEST_F(WhsFollow, InterruptedSequence_KeepsItsFramesAndContinues) {
   constexpr int kLong = 16;  // to and fro
   std::filesystem::create_directory(folder_ / "long");
@@ -100,7 +87,7 @@ TEST_F(WhsFollow, InterruptedSequence_KeepsItsFramesAndContinues) {
                                     folder_ / ("long/" + std::to_string(i) + ".png"));
   }
   const Arguments arguments = followArguments(folder_ / "long");
-  const EndedWhs ended = endWhsAfter(arguments, SIGINT, folder_ / "r.sqlite", 3);
+  const EndedWhs ended = endWhsAfter(arguments, SIGINT, results_, 3);
   EXPECT_TRUE(WIFEXITED(ended.status));
   EXPECT_EQ(WEXITSTATUS(ended.status), 1);
   EXPECT_GE(ended.held, 3);
@@ -113,33 +100,25 @@ TEST_F(WhsFollow, InterruptedSequence_KeepsItsFramesAndContinues) {
 }
 
 TEST_F(WhsFollow, SequenceWithoutAnyPose_EndsAsNotConverged) {
-  const GeneratedApproach approach(24);
-  const sessions::GrayImage covered = approach.coveredImage();
+  const sessions::GrayImage covered = GeneratedApproach(24).coveredImage();
   sessions::writePng(folder_ / "0.png", covered.pixels, 512, 512, 1);
-  folder_.write("list.txt", std::string_view("0.png\n"));
-  const ProgramRun run = runWhs(followArguments(folder_ / "list.txt"), 4);
-  EXPECT_THAT(run.out, HasSubstr("0 of 1 frames accepted, 1 lost: 1; "));
+  EXPECT_THAT(runWhs(followArguments(folder_.write("list.txt", "0.png\n")), 4).out,
+              HasSubstr("0 of 1 frames accepted, 1 lost: 1; "));
 }
 
 TEST_F(WhsFollow, BadInputs_AreRefusedInOneLine) {
-  const auto refusal = [&](const std::string& images, const Arguments& more, int exit_code) {
+  const auto error = [this](const std::string& images, const Arguments& more, int exit_code) {
     const ProgramRun run = runWhs(followArguments(images, more), exit_code);
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "r.sqlite"));
+    EXPECT_FALSE(std::filesystem::exists(results_));
     return run.err;
   };
-  folder_.write("empty.txt", std::string_view("# nothing\n"));
-  folder_.write("movie.mp4", std::string_view("no video"));
-  std::filesystem::create_directory(folder_ / "empty");
-  EXPECT_THAT(refusal(folder_ / "none", {}, 3), HasSubstr("there is no such folder or file"));
-  EXPECT_THAT(refusal(folder_ / "empty", {}, 3), HasSubstr("has no image"));
-  EXPECT_THAT(refusal(folder_ / "empty.txt", {}, 3), HasSubstr("lists no image"));
-  EXPECT_THAT(refusal(folder_ / "movie.mp4", {}, 3), HasSubstr("cannot read this video"));
-  EXPECT_THAT(refusal(folder_ / "movie.mp4", {"--bit-depth", "8"}, 2),
-              HasSubstr("are not for a video"));
-  EXPECT_THAT(refusal(approachFolder() / "frames", {"--motion", "5", "200"}, 2),
+  const std::string frames = approachFolder() / "frames",
+                    movie = folder_.write("m.mp4", "no video");
+  EXPECT_THAT(error(folder_ / "none", {}, 3), HasSubstr("there is no such folder or file"));
+  EXPECT_THAT(error(movie, {"--bit-depth", "8"}, 2), HasSubstr("are not for a video"));
+  EXPECT_THAT(error(frames, {"--motion", "5", "200"}, 2),
               HasSubstr("the angle is at most 180 deg"));
-  EXPECT_THAT(refusal(approachFolder() / "frames", {"--set", "loop.none=1"}, 2),
-              HasSubstr("loop.none"));
+  EXPECT_THAT(error(frames, {"--set", "loop.none=1"}, 2), HasSubstr("loop.none"));
 }
 
 }  // namespace

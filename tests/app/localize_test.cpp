@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fstream>
-
-#include <nlohmann/json.hpp>
 
 #include "core/record/problem_bytes.h"
 #include "sessions/io/images/image_file.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/trace/trace_file.h"
+#include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 /// The recommended settings, with every output: run once.
 struct WholeRun {
@@ -30,7 +23,7 @@ struct WholeRun {
                                 {"--overlay", folder / "overlay.png"}},
                                true),
              0);
-  nlohmann::json result = nlohmann::json::parse(folder.read("result.json"));
+  nlohmann::json result = jsonOf(folder / "result.json");
   sessions::LocalizationTrace trace = sessions::loadTrace(folder / "run.trace");
 
   static const WholeRun& get() {
@@ -55,6 +48,14 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
   EXPECT_THAT(run.out, HasSubstr(trace.digest));
   EXPECT_EQ(trace.iterations.size(), result["iterations"]);
   EXPECT_EQ(sessions::readImage(folder / "overlay.png").width, 1024);
+
+  const sessions::OnboardRecord record = sessions::readRecord(folder / "run.whsr");
+  EXPECT_TRUE(record.whole());
+  ASSERT_TRUE(record.end && record.inputs);
+  EXPECT_EQ(record.end->digest, trace.digest);
+  // The hash of the pixels is the one that sessions and results name.
+  EXPECT_EQ(hexText(record.inputs->sha256.pixels).data(), osExample().image.pixels_sha256);
+  EXPECT_LT(folder.read("run.whsr").size(), 64000u);
 }
 
 TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
@@ -67,9 +68,8 @@ TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
   EXPECT_EQ(acceptance["edge_width_px"], trace.edge_width.widest_px());
   EXPECT_FALSE(acceptance["in_colour"].get<bool>()) << "the example is gray";
   ASSERT_EQ(result["candidates"].size(), trace.candidates.size());
-  for (std::size_t i = 0; i < trace.candidates.size(); ++i) {
+  for (std::size_t i = 0; i < trace.candidates.size(); ++i)
     EXPECT_EQ(result["candidates"][i]["evidence_nats"], trace.candidates[i].rank_nats());
-  }
   ASSERT_EQ(result["compared_poses"].size(), trace.hypotheses.size());
   for (std::size_t i = 0; i < trace.hypotheses.size(); ++i) {
     const nlohmann::json& compared = result["compared_poses"][i];
@@ -98,38 +98,6 @@ TEST(WhsLocalize, GivesTheSameDigestByAllKernelsAndThreadsAndWithRecording) {
   EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
   EXPECT_THAT(runWhs(localizeArguments({{"--kernels", "abacus"}}), 2).err,
               AllOf(HasSubstr("--kernels"), HasSubstr("best, portable")));
-  runWhs(localizeArguments({{"--threads", "-1"}}), 2);
-}
-
-TEST(WhsLocalize, WritesTheOnboardRecord) {
-  const auto& [folder, run, result, trace] = WholeRun::get();
-  const sessions::OnboardRecord record = sessions::readRecord(folder / "run.whsr");
-  EXPECT_TRUE(record.whole());
-  ASSERT_TRUE(record.end && record.inputs);
-  EXPECT_THAT(run.out, HasSubstr("digest " + record.end->digest));
-  // The hash of the pixels is the one that sessions and results name.
-  EXPECT_EQ(hexText(record.inputs->sha256.pixels).data(),
-            sessions::readImage(exampleFolder() / "os/image.png").pixels_sha256);
-  EXPECT_LT(folder.read("run.whsr").size(), 64000u);
-}
-
-TEST(WhsCompare, SaysByItsExitCodeWhetherTwoRunsWereTheSame) {
-  const TemporaryFolder folder;
-  const std::string first = folder / "a.whsr";
-  const std::string second = folder / "b.whsr";
-  runWhs(localizeArguments({{"--record", first}}), 0);
-  runWhs(localizeArguments({{"--record", second}}), 0);
-  const ProgramRun equal = runWhs({"compare", first, second}, 0);
-  EXPECT_THAT(equal.out, HasSubstr("equal to the bit"));
-  runWhs(localizeArguments({{"--record", second}, {"--set", "pnp.seed=2"}}), 0);
-  EXPECT_THAT(runWhs({"compare", first, second}, 6).out, HasSubstr("options: the option pnp.seed"));
-  const auto write = [&](const char* name, const std::string& bytes) {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-  };
-  write("cut.whsr", folder.read("a.whsr").substr(0, 4000));
-  runWhs({"compare", first, folder / "cut.whsr"}, 5);
-  write("no.whsr", "no record");
-  EXPECT_THAT(runWhs({"compare", first, folder / "no.whsr"}, 3).err, HasSubstr("no.whsr"));
 }
 
 TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
@@ -152,42 +120,31 @@ TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
 
 TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {
   const TemporaryFolder folder;
-  const ProgramRun run = runWhs(
-      localizeArguments({{"--set", "loop.max_iterations=1"}, {"--out", folder / "result.json"}}),
-      4);
-  EXPECT_EQ(run.errorLines(), 1) << run.err;
-  EXPECT_THAT(run.err, AllOf(HasSubstr("iteration_limit"), HasSubstr("mm"), HasSubstr("needed")));
-  const auto result = nlohmann::json::parse(folder.read("result.json"));
+  const std::string out = folder / "result.json";
+  EXPECT_THAT(refusal(localizeArguments({{"--set", "loop.max_iterations=1"}, {"--out", out}}), 4),
+              AllOf(HasSubstr("iteration_limit"), HasSubstr("mm"), HasSubstr("needed")));
+  const auto result = jsonOf(out);
   EXPECT_EQ(result["completed"], false);
   EXPECT_EQ(result["camera_from_station"], result["camera_from_station_seed"]);
   EXPECT_FALSE(result.contains("covariance"));
 }
 
-TEST(WhsLocalize, TakesProfileConfigAndAssignmentsInThisOrder) {
+TEST(WhsLocalize, TakesConfigurationAssignmentsAndUncertaintyFromTheCommandLine) {
   const TemporaryFolder folder;
-  const auto config = folder.write(
+  const std::string out = folder / "result.json";
+  const std::string config = folder.write(
       "config.json", R"({"format": "boresight-config", "version": 1, "profile": "paper",
                          "options": {"loop.max_iterations": 1, "pnp.seed": 3}})");
-  runWhs(localizeArguments({{"--config", config.string()},
-                            {"--set", "pnp.seed=4"},
-                            {"--out", folder / "result.json"}}),
-         4);
-  const auto provenance = nlohmann::json::parse(folder.read("result.json"))["provenance"];
+  const Arguments uncertain = {"--uncertainty", "0.01",   "0.02", "0.03", "1", "2", "3",
+                               "--pivot",       "station"};
+  const Arguments arguments =
+      localizeArguments({{"--config", config}, {"--set", "pnp.seed=4"}, {"--out", out}});
+  runWhs(with(arguments, uncertain), 4);
+  const auto provenance = jsonOf(out)["provenance"];
   EXPECT_EQ(provenance["profile"], "paper");
   EXPECT_EQ(provenance["options"]["loop.max_iterations"], 1);
-  EXPECT_EQ(provenance["options"]["pnp.seed"], 4);
-}
-
-TEST(WhsLocalize, TakesTheUncertaintyFromTheCommandLine) {
-  const TemporaryFolder folder;
-  Arguments arguments =
-      localizeArguments({{"--set", "loop.max_iterations=1"}, {"--out", folder / "result.json"}});
-  for (const char* value :
-       {"--uncertainty", "0.01", "0.02", "0.03", "1", "2", "3", "--pivot", "station"})
-    arguments.emplace_back(value);
-  runWhs(arguments);
-  const auto uncertainty =
-      nlohmann::json::parse(folder.read("result.json"))["provenance"]["uncertainty"];
+  EXPECT_EQ(provenance["options"]["pnp.seed"], 4) << "an assignment comes after the file";
+  const auto& uncertainty = provenance["uncertainty"];
   EXPECT_EQ(uncertainty["translation_m"], nlohmann::json({0.01, 0.02, 0.03}));
   EXPECT_EQ(uncertainty["rotation_deg"], nlohmann::json({1.0, 2.0, 3.0}));
   EXPECT_EQ(uncertainty["pivot"], "station");
@@ -195,10 +152,9 @@ TEST(WhsLocalize, TakesTheUncertaintyFromTheCommandLine) {
 
 TEST(WhsLocalize, SeesOnlyWhatTheIgnoreMaskLeaves) {
   const TemporaryFolder folder;
-  std::vector<std::uint8_t> mask(1024 * 1024, 255);
-  sessions::writePng(folder / "all.png", mask, 1024, 1024, 1);
-  const ProgramRun run = runWhs(localizeArguments({{"--ignore", folder / "all.png"}}), 4);
-  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  const std::string mask = folder / "all.png";
+  sessions::writePng(mask, std::vector<std::uint8_t>(1024 * 1024, 255), 1024, 1024, 1);
+  refusal(localizeArguments({{"--ignore", mask}}), 4);
 }
 
 // Other methods, on the command line.
@@ -209,8 +165,7 @@ TEST(WhsMethods, ResultNamesTheMethodAndItsOptions) {
                                                    {"--set", "ncc.kind=ccorr_normed"},
                                                    {"--out", folder / "result.json"}}));
   EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
-  const auto result = nlohmann::json::parse(folder.read("result.json"));
-  EXPECT_THAT(result.dump(),
+  EXPECT_THAT(jsonOf(folder / "result.json").dump(),
               AllOf(HasSubstr("\"method\":\"ncc\""), HasSubstr("\"ncc.kind\":\"ccorr_normed\"")));
 }
 
@@ -222,31 +177,20 @@ TEST(WhsMethods, APoseFoundWithoutASearch_IsJudgedByEdgeSupportAndReportedSo) {
 }
 
 TEST(WhsMethods, RefusesWhatDoesNotFit) {
-  EXPECT_THAT(runWhs(localizeArguments({{"--method", "sift"}}), 2).err,
-              AllOf(HasSubstr("sift"), HasSubstr("whs, ncc, ssd, orb")));
   EXPECT_THAT(runWhs(localizeArguments({{"--method", "loftr-r"}}), 2).err, HasSubstr("--matcher"));
   EXPECT_THAT(runWhs(localizeArguments({{"--method", "orb"}, {"--set", "orb.levels=99"}}), 2).err,
               HasSubstr("orb.levels"));
   runWhs(localizeArguments({{"--method", "orb"}, {"--record", "/no/such/run.whsr"}}), 2);
 }
 
-TEST(WhsMethods, OptionsListThoseOfTheMethods) {
-  const ProgramRun run = runWhs({"options"}, 0);
-  for (const char* name : {"ssd.masked", "ncc.kind", "orb.features", "external.timeout_s"})
-    EXPECT_THAT(run.out, HasSubstr(name));
-}
-
 TEST(WhsMethods, AMatcherThatDiesIsOneSentence) {
-  const ProgramRun run = runWhs(
-      localizeArguments({{"--method", "external"}, {"--matcher", BORESIGHT_TEST_MATCHER " die"}}),
-      4);
-  EXPECT_EQ(run.errorLines(), 1) << run.err;
-  EXPECT_THAT(run.err, AllOf(HasSubstr("ended with status 3"), HasSubstr("out of paper")));
+  EXPECT_THAT(refusal(localizeArguments(
+                          {{"--method", "external"}, {"--matcher", BORESIGHT_TEST_MATCHER " die"}}),
+                      4),
+              AllOf(HasSubstr("ended with status 3"), HasSubstr("out of paper")));
 }
 
 // whs problem, and the flight driver that reads what it writes.
-
-using testing::StartsWith;
 
 /// Files of one problem, written by whs, and what the driver says of them.
 class WhsProblem : public testing::Test {
@@ -258,10 +202,8 @@ class WhsProblem : public testing::Test {
     return with(arguments, {"--out", problem_, "--image-out", image_});
   }
 
-  ProgramRun drive() const { return runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, image_}); }
-
   void expectRefused(const std::string& file, const std::string& reason) const {
-    const ProgramRun run = drive();
+    const ProgramRun run = runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, image_});
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(run.errorLines(), 1) << run.err;
@@ -275,7 +217,7 @@ class WhsProblem : public testing::Test {
 
 TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
   EXPECT_THAT(runWhs(arguments(), 0).out, HasSubstr("1024 x 1024"));
-  const ExampleCase example("os");
+  const ExampleCase& example = osExample();
   const std::string pixels(example.image.pixels.begin(), example.image.pixels.end());
   EXPECT_EQ(folder_.read("image.pgm"), "P5\n1024 1024\n255\n" + pixels);
 
@@ -285,10 +227,8 @@ TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
   std::vector<std::uint8_t> expected(encodeProblem(example.problem(), options, {}));
   encodeProblem(example.problem(), options, expected);
   EXPECT_TRUE(folder_.read("problem.bin") == std::string(expected.begin(), expected.end()));
-}
 
-TEST_F(WhsProblem, Driver_WithLostOutput_Fails) {
-  runWhs(arguments(), 0);
+  // The driver fails when its output is lost.
   const std::string command = std::string(BORESIGHT_FLIGHT_DRIVER) + " '" + problem_ + "' '" +
                               image_ + "' >/dev/full 2>/dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
@@ -298,21 +238,19 @@ TEST_F(WhsProblem, IsTheSameFromADataset) {
   // The end effector as the dataset states it.
   runWhs(with(arguments(), {"--end-effector", "0", "0", "0.37"}), 0);
   const std::string problem = folder_.read("problem.bin");
-  runWhs({"problem", "--dataset", exampleFolder() / "dataset.json", "--case", kOsCase, "--out",
-          problem_, "--image-out", image_, "--set", kNoSearch},
+  runWhs({"problem", "--dataset", exampleDataset(), "--case", kOsCase, "--out", problem_,
+          "--image-out", image_, "--set", kNoSearch},
          0);
   EXPECT_TRUE(folder_.read("problem.bin") == problem);
 }
 
 TEST_F(WhsProblem, RefusesWhatItCannotWriteOrRead) {
-  const std::string dataset = exampleFolder() / "dataset.json";
-  EXPECT_THAT(runWhs({"problem", "--dataset", dataset, "--case", "none", "--out", problem_,
-                      "--image-out", image_},
-                     3)
-                  .err,
+  const std::string dataset = exampleDataset();
+  const Arguments outputs = {"problem", "--out", problem_, "--image-out", image_};
+  EXPECT_THAT(runWhs(with(outputs, {"--dataset", dataset, "--case", "none"}), 3).err,
               AllOf(StartsWith(dataset), HasSubstr("none")));
   runWhs(with(arguments(), {"--dataset", dataset, "--case", kOsCase}), 2);
-  runWhs({"problem", "--out", problem_, "--image-out", image_}, 2);
+  runWhs(outputs, 2);
   runWhs(arguments({{"--seed", ""}}), 2);
   runWhs(arguments({{"--camera", "/no/such/camera.json"}}), 3);
   EXPECT_EQ(folder_.fileCount(), 0u);
@@ -324,28 +262,26 @@ TEST_F(WhsProblem, TheDriverRefusesDamageInOneSentence) {
   const std::string image = folder_.read("image.pgm");
   std::string damaged = problem;
   damaged[damaged.size() / 2] ^= 1;
-  folder_.write("problem.bin", damaged);
-  expectRefused(problem_, "checksum");
-  folder_.write("problem.bin", problem.substr(0, 1000));
-  expectRefused(problem_, "truncated");
-  folder_.write("problem.bin", image);
-  expectRefused(problem_, "not a problem file");
-  folder_.write("problem.bin", std::string());
-  expectRefused(problem_, "not a problem file");
-
+  const std::pair<std::string, const char*> problems[] = {{damaged, "checksum"},
+                                                          {problem.substr(0, 1000), "truncated"},
+                                                          {image, "not a problem file"},
+                                                          {"", "not a problem file"}};
+  for (const auto& [bytes, reason] : problems) {
+    folder_.write("problem.bin", bytes);
+    expectRefused(problem_, reason);
+  }
   folder_.write("problem.bin", problem);
-  folder_.write("image.pgm", image.substr(0, image.size() - 1));
-  expectRefused(image_, "fewer pixels");
-  folder_.write("image.pgm", image + "x");
-  expectRefused(image_, "more bytes");
-  folder_.write("image.pgm", problem);
-  expectRefused(image_, "not a binary PGM");
-  folder_.write("image.pgm", "P5\n1024 1024\n65535\n" + image);
-  expectRefused(image_, "8 bits");
-  folder_.write("image.pgm", std::string("P5\n1024 99999999999999999999\n255\n"));
-  expectRefused(image_, "width and height");
-  folder_.write("image.pgm", "P5\n512 2048\n255\n" + image.substr(17));
-  expectRefused(image_, "not the camera's");
+  const std::pair<std::string, const char*> images[] = {
+      {image.substr(0, image.size() - 1), "fewer pixels"},
+      {image + "x", "more bytes"},
+      {problem, "not a binary PGM"},
+      {"P5\n1024 1024\n65535\n" + image, "8 bits"},
+      {"P5\n1024 99999999999999999999\n255\n", "width and height"},
+      {"P5\n512 2048\n255\n" + image.substr(17), "not the camera's"}};
+  for (const auto& [bytes, reason] : images) {
+    folder_.write("image.pgm", bytes);
+    expectRefused(image_, reason);
+  }
   const std::string folder = folder_.path();
   for (const Arguments& arguments : {Arguments{folder, image_}, Arguments{problem_, folder}}) {
     const ProgramRun run = runProgram(BORESIGHT_FLIGHT_DRIVER, arguments);

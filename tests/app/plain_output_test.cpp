@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What whs prints: text that came in files cannot act on the terminal or begin a line of its own,
 // and output that is lost is not passed over.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
 
 /// A name that would colour, clear and turn round the terminal, and forge a line.
 std::string hostile(const std::string& name) {
@@ -34,41 +32,33 @@ void expectPlain(const ProgramRun& run, const std::string& command) {
 class PlainOutput : public testing::Test {
  protected:
   PlainOutput() {
-    json dataset = json::parse(std::ifstream(exampleFolder() / "dataset.json"));
-    const auto rename = [](json& object, const std::string& from, const std::string& to) {
-      object[to] = object[from];
-      object.erase(from);
-    };
+    json dataset = jsonOf(exampleDataset());
     for (json& item : dataset["cases"]) {
       const std::string folder = item["image"].get<std::string>().substr(0, 2);
       const std::string image = hostile(folder) + ".png";
       std::filesystem::copy(exampleFolder() / item["image"].get<std::string>(), folder_ / image);
-      item["id"] = hostile(item["id"]);
       item["image"] = image;
-      item["station"] = hostile(item["station"]);
-      item["camera"] = hostile(item["camera"]);
       item["tags"] = {hostile("tag")};
+      for (const char* member : {"id", "station", "camera"}) item[member] = hostile(item[member]);
     }
     for (const std::string station : {"bc", "os"}) {
       const std::string mesh = hostile(station) + ".ply";
       std::filesystem::copy(exampleFolder() / station / "model.ply", folder_ / mesh);
       dataset["stations"][station]["mesh"] = mesh;
-      rename(dataset["stations"], station, hostile(station));
     }
-    json cameras = json::object();
-    for (const auto& [name, camera] : dataset["cameras"].items()) cameras[hostile(name)] = camera;
-    dataset["cameras"] = cameras;
+    for (const char* member : {"stations", "cameras"}) {
+      json renamed = json::object();
+      for (const auto& [name, value] : dataset[member].items()) renamed[hostile(name)] = value;
+      dataset[member] = renamed;
+    }
     case_ = dataset["cases"][0]["id"];
     folder_.write("dataset.json", dataset.dump());
   }
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   /// Runs a command that is to end with one of these, and looks at what it prints.
-  ProgramRun run(const Arguments& arguments, int exit_code = 0) const {
-    const ProgramRun ended = runWhs(arguments);
-    EXPECT_EQ(ended.exit_code, exit_code) << arguments[0] << ": " << ended.err;
-    expectPlain(ended, arguments[0]);
-    return ended;
+  static void run(const Arguments& arguments, int exit_code = 0) {
+    expectPlain(runWhs(arguments, exit_code), arguments[0]);
   }
 
   TemporaryFolder folder_;
@@ -93,7 +83,7 @@ TEST_F(PlainOutput, OfSessionsIsText) {
   run({"run", session, "--case", "none" + hostile("")}, 3);
 }
 
-TEST_F(PlainOutput, OfResultsIsText) {
+TEST_F(PlainOutput, OfResultsAndUsageErrorsIsText) {
   const std::string results = file("r.sqlite");
   run(with({"evaluate", "--dataset", file("dataset.json"), "--out", results}, kQuick));
   run({"tables", results});
@@ -101,43 +91,28 @@ TEST_F(PlainOutput, OfResultsIsText) {
   run({"problem", "--dataset", file("dataset.json"), "--case", hostile("none"), "--out",
        file("p.bin"), "--image-out", file("p.pgm")},
       3);
-}
-
-TEST_F(PlainOutput, OfUsageErrorsIsText) {
   run({"options", hostile("--what")}, 2);
   run({"info", file(hostile("none.json"))}, 3);
 }
 
-class LostOutput : public testing::Test {
- protected:
-  /// The exit status and stderr of whs with its output on a full device.
-  ProgramRun run(const Arguments& arguments) const {
-    std::string command = BORESIGHT_WHS;
-    for (const std::string& argument : arguments) command += " '" + argument + "'";
-    const int status =
-        std::system((command + " >/dev/full 2>'" + (folder_ / "err").string() + "'").c_str());
-    ProgramRun result;
-    if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
-    result.err = folder_.read("err");
-    return result;
-  }
-  const TemporaryFolder folder_;
-};
+/// Whs with its output on a full device.
+ProgramRun runOnFullDevice(const Arguments& arguments) {
+  std::string command = BORESIGHT_WHS;
+  for (const std::string& argument : arguments) command += " \"" + argument + "\"";
+  return runProgram("sh", {"-c", command + " >/dev/full"});
+}
 
-TEST_F(LostOutput, FailsTheProgram) {
+TEST(LostOutput, FailsTheProgramAndHidesNoOtherFailure) {
   const std::filesystem::path example = exampleFolder() / "os";
   for (const Arguments& arguments :
        {localizeArguments(), Arguments{"info", example / "image.png"}, Arguments{"options"},
         Arguments{"--help"}, Arguments{"--version"}}) {
-    const ProgramRun lost = run(arguments);
+    const ProgramRun lost = runOnFullDevice(arguments);
     EXPECT_EQ(lost.exit_code, 3) << arguments[0] << lost.err;
     EXPECT_THAT(lost.err, HasSubstr("cannot write standard output")) << arguments[0];
     EXPECT_EQ(lost.errorLines(), 1) << lost.err;
   }
-}
-
-TEST_F(LostOutput, DoesNotHideAnotherFailure) {
-  const ProgramRun lost = run(localizeArguments({{"--set", "loop.max_iterations=1"}}));
+  const ProgramRun lost = runOnFullDevice(localizeArguments({{"--set", "loop.max_iterations=1"}}));
   EXPECT_EQ(lost.exit_code, 4) << "it did not converge either";
   EXPECT_THAT(lost.err, HasSubstr("cannot write standard output"));
 }

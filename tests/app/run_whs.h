@@ -52,6 +52,13 @@ inline ProgramRun runWhs(const Arguments& arguments, int exit_code) {
   return run;
 }
 
+/// What whs says when it ends with this exit status and with one line on stderr.
+inline std::string refusal(const Arguments& arguments, int exit_code = 3) {
+  const ProgramRun run = runWhs(arguments, exit_code);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  return run.err;
+}
+
 /// Options by which the example converges from its seed, in a third of the time of a search.
 inline constexpr const char* kNoSearch = "search.enabled=false";
 /// Options of a run that ends early, at its iteration limit.
@@ -88,14 +95,23 @@ inline std::string digestOf(const ProgramRun& run) {
   return run.out.substr(std::min(run.out.find("digest"), run.out.size()), 64 + 7);
 }
 
+/// The data set of the example.
+inline std::string exampleDataset() { return exampleFolder() / "dataset.json"; }
+
+/// A copy of the example's stations that a test may spoil; returns its data set.
+inline std::string copyOfExample(const TemporaryFolder& folder) {
+  std::filesystem::copy(exampleFolder(), folder / "stations",
+                        std::filesystem::copy_options::recursive);
+  return folder / "stations/dataset.json";
+}
+
 /// The example's case of the orbiting sample.
 inline constexpr const char* kOsCase = "os-000038";
 
 /// A new session of the example in `folder`, which runs without a search: of that case, or of all.
 inline std::string newSession(const TemporaryFolder& folder, bool all_cases = false) {
   const std::string file = folder / "s.boresight.json";
-  Arguments arguments = {"new",   "--dataset", exampleFolder() / "dataset.json", "--out", file,
-                         "--set", kNoSearch};
+  Arguments arguments = {"new", "--dataset", exampleDataset(), "--out", file, "--set", kNoSearch};
   if (!all_cases) arguments.insert(arguments.end(), {"--case", kOsCase});
   runWhs(arguments, 0);
   return file;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // whs views: one pose from the cases of a rig.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,23 +8,22 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pnp/normal_equations.h"
-#include "sessions/io/cameras/pose_file.h"
-#include "sessions/io/json/json_reader.h"
 #include "sessions/io/json/json_writer.h"
+#include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
 
 class WhsViews : public testing::Test {
  protected:
   /// A dataset of the example's first case, once per camera of the rig "pair".
   std::string datasetOf(const std::vector<Pose>& cameras_from_rig) const {
     const std::filesystem::path folder = exampleFolder();
-    json dataset = json::parse(std::ifstream(folder / "dataset.json"));
+    json dataset = jsonOf(exampleDataset());
     for (json& station : dataset["stations"])
       station["mesh"] = (folder / station["mesh"].get<std::string>()).string();
     json value = dataset["cases"][0];
@@ -42,13 +40,9 @@ class WhsViews : public testing::Test {
 
   json solved(const std::vector<Pose>& cameras_from_rig) const {
     runWhs({"views", "--dataset", datasetOf(cameras_from_rig), "--out", folder_ / "out.json"}, 0);
-    return json::parse(folder_.read("out.json"))["rigs"].at(0);
+    return jsonOf(folder_ / "out.json")["rigs"].at(0);
   }
 
-  static Pose poseOf(const json& matrix) {
-    const sessions::JsonDocument document("out.json", matrix.dump());
-    return sessions::readTransform(document.root());
-  }
   static Matrix6d covarianceOf(const json& rows) {
     Matrix6d result;
     for (int i = 0; i < 36; ++i)
@@ -92,17 +86,16 @@ TEST_F(WhsViews, ResultsNameEveryView) {
 }
 
 TEST_F(WhsViews, WhatIsNoRigIsRefused) {
-  const auto refusal = [this](const std::string& dataset) {
+  const auto error = [](const std::string& dataset) {
     return runWhs({"views", "--dataset", dataset, "--rig", "pair"}, 3).err;
   };
-  EXPECT_THAT(refusal((exampleFolder() / "dataset.json").string()), HasSubstr("no case names it"));
-  EXPECT_THAT(refusal(datasetOf(std::vector<Pose>(9))), HasSubstr("at most 8"));
-  json two = json::parse(std::ifstream(datasetOf({Pose(), Pose()})));
+  EXPECT_THAT(error(exampleDataset()), HasSubstr("no case names it"));
+  EXPECT_THAT(error(datasetOf(std::vector<Pose>(9))), HasSubstr("at most 8"));
+  json two = jsonOf(datasetOf({Pose(), Pose()}));
   two["cases"][1]["station"] = "os";
-  EXPECT_THAT(refusal(folder_.write("two.json", two.dump()).string()),
-              HasSubstr("another station"));
+  EXPECT_THAT(error(folder_.write("two.json", two.dump())), HasSubstr("another station"));
   for (const char* station : {"bc", "os"}) two["stations"][station].erase("uncertainty");
-  EXPECT_THAT(refusal(folder_.write("none.json", two.dump()).string()), HasSubstr("uncertainty"));
+  EXPECT_THAT(error(folder_.write("none.json", two.dump())), HasSubstr("uncertainty"));
 }
 
 }  // namespace

@@ -100,10 +100,6 @@ std::vector<std::string> linksOf(const std::string& page) {
   return matches(text, R"(\]\(([^)\s]+)\))", 1);
 }
 
-void expectSamePose(const Pose& a, const Pose& b) {
-  EXPECT_LT(perturbationBetween(a, b).norm(), 1e-5);  // six digits of 84 m are shown
-}
-
 TEST(Manual, Links_HaveTargets) {
   int links = 0;
   for (const auto& [name, page] : pages()) {
@@ -125,11 +121,10 @@ TEST(Manual, Links_HaveTargets) {
 TEST(Manual, EveryPageIsListedInTheIndexOnce) {
   const std::vector<std::string> listed =
       matches(pages().at("index.md"), R"(\n- \[[^\]]+\]\(([a-z_]+\.md)\))", 1);
-  std::set<std::string> expected;
+  std::multiset<std::string> expected;
   for (const auto& page : pages()) expected.insert(page.first);
   expected.erase("index.md");
-  EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), expected);
-  EXPECT_EQ(listed.size(), expected.size());
+  EXPECT_EQ(std::multiset<std::string>(listed.begin(), listed.end()), expected);
 }
 
 TEST(Manual, EveryPictureIsShownAndSmall) {
@@ -146,33 +141,19 @@ TEST(Manual, EveryPictureIsShownAndSmall) {
   EXPECT_LT(bytes, 3'000'000u);
 }
 
-template <class Options>
-void expectOptions(const Options& options) {
+TEST(Manual, KnowsEveryOptionAndNamesNoOther) {
   const std::string page = std::regex_replace(pages().at("options.md"), std::regex(R"(\\)"), "");
-  for (const sessions::OptionDescription& option : sessions::listOptions(options)) {
-    EXPECT_NE(page.find("| `" + option.name + "` | "), std::string::npos) << option.name;
-    EXPECT_NE(page.find("| " + option.help + " ("), std::string::npos) << option.name;
-  }
-}
-
-TEST(Manual, KnowsEveryOption) {
-  expectOptions(defaultProfile());
-  expectOptions(sessions::MethodOptions());
-  expectOptions(sessions::CheckLimits());
-}
-
-TEST(Manual, NamedOptions_Exist) {
   std::set<std::string> known;
   std::set<std::string> groups;
-  const auto add = [&](const auto& options) {
-    for (const sessions::OptionDescription& option : sessions::listOptions(options)) {
+  for (const auto& options :
+       {sessions::listOptions(defaultProfile()), sessions::listOptions(sessions::MethodOptions()),
+        sessions::listOptions(sessions::CheckLimits())})
+    for (const sessions::OptionDescription& option : options) {
+      EXPECT_NE(page.find("| `" + option.name + "` | "), std::string::npos) << option.name;
+      EXPECT_NE(page.find("| " + option.help + " ("), std::string::npos) << option.name;
       known.insert(option.name);
       groups.insert(option.name.substr(0, option.name.find('.')));
     }
-  };
-  add(defaultProfile());
-  add(sessions::MethodOptions());
-  add(sessions::CheckLimits());
   for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md",
                            "robustness.md", "trust.md", "formats.md", "evaluate.md", "window.md"})
     for (const std::string& word : matches(pages().at(name), R"(`([a-z]+\.[a-z_]+)(=[^`]*)?`)", 1))
@@ -305,11 +286,14 @@ TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
     return item.frame == stated.source && item.reference == stated.target;
   });
   ASSERT_NE(told, label.frames.end());
-  expectSamePose(stated.target_from_source, told->reference_from_frame);
+  // Six digits of 84 m are shown.
+  EXPECT_LT(perturbationBetween(stated.target_from_source, told->reference_from_frame).norm(),
+            1e-5);
   const auto seedOf = [&folder](const char* session) {
     return sessions::readSessionFile(folder / session).session.cases[0]->camera_from_station_seed;
   };
-  expectSamePose(seedOf("sol4000.boresight.json"), seedOf("sol4000_site.boresight.json"));
+  const Pose seed = seedOf("sol4000.boresight.json");
+  EXPECT_LT(perturbationBetween(seed, seedOf("sol4000_site.boresight.json")).norm(), 1e-5);
 }
 
 /// In tables of files, the names next to a file occur in it.
@@ -334,10 +318,7 @@ TEST(Manual, NamedFilesAndFunctions_Exist) {
   EXPECT_GT(files, 50);
 }
 
-TEST(Manual, PagesThatCannotBeWrittenAreOneLine) {
-  const ProgramRun run = runWhs({"documents", "/proc/nowhere"}, 3);
-  EXPECT_EQ(run.errorLines(), 1) << run.err;
-}
+TEST(Manual, PagesThatCannotBeWrittenAreOneLine) { refusal({"documents", "/proc/nowhere"}); }
 
 }  // namespace
 }  // namespace boresight::test

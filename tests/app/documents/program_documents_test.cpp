@@ -37,21 +37,19 @@ std::set<std::string> optionsOf(const std::string& help) {
   return options;
 }
 
-std::set<std::string> offered(Arguments words) {
-  words.insert(words.begin(), "--complete");
-  const ProgramRun run = runWhs(words, 0);
-  return lines(run.out);
+std::set<std::string> offered(const Arguments& words) {
+  return lines(runWhs(with({"--complete"}, words), 0).out);
 }
 
 using Words = std::set<std::string>;
 
 TEST(Completions, KnowEveryCommandAndOptionOfTheHelp) {
-  const std::string help = runWhs({"--help"}).out;
+  const std::string help = runWhs({"--help"}, 0).out;
   const Words commands = offered({""});
   EXPECT_GT(commands.size(), 15u);
   for (const std::string& command : commands) {
     EXPECT_NE(help.find("\n  " + command + " "), std::string::npos) << command;
-    EXPECT_EQ(offered({command, "--"}), optionsOf(runWhs({command, "--help"}).out)) << command;
+    EXPECT_EQ(offered({command, "--"}), optionsOf(runWhs({command, "--help"}, 0).out)) << command;
   }
 }
 
