@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -70,11 +71,6 @@ std::string folderOf(const std::string& file) {
   return file.substr(0, end);
 }
 
-bool ofTheHouse(const std::string& header) {
-  const std::string top = header.substr(0, header.find('/'));
-  return top == "core" || top == "sessions" || top == "ui" || top == "app";
-}
-
 /// "" when `file` may include `header`, else why not.
 std::string fault(const std::string& file, const std::string& header) {
   const std::string folder = folderOf(file);
@@ -83,7 +79,8 @@ std::string fault(const std::string& file, const std::string& header) {
   if (qt && !folder.starts_with("ui/") && !folder.starts_with("app")) return "includes " + header;
   const bool vtk = header.starts_with("vtk") || header.starts_with("QVTK");
   if (vtk && folder != "ui/scene") return "includes " + header + ", which only ui/scene may";
-  if (!ofTheHouse(header)) return "";
+  static const std::set<std::string> house = {"core", "sessions", "ui", "app"};
+  if (!house.contains(header.substr(0, header.find('/')))) return "";
   const std::string other = folderOf(header);
   if (floorOf(other) == kFloors.size()) return "includes " + header + ", which is on no floor";
   if (other == folder || floorOf(other) < floorOf(folder)) return "";
@@ -130,7 +127,8 @@ TEST(Floors, IncludesUpwardsAndSidewardsAreFaults) {
   EXPECT_NE(fault("ui/panels/run/pose_panel.cpp", "vtkActor.h"), "");
   EXPECT_NE(fault("ui/review/queue_panel.cpp", "ui/annotation/loupe.h"), "");
   EXPECT_NE(fault("ui/unheard_of/x.h", "core/base/math.h"), "");
-  EXPECT_EQ(fault("sessions/io/images/image_file.cpp", "sessions/io/images/labels/image_label.h"), "");
+  EXPECT_EQ(fault("sessions/io/images/image_file.cpp", "sessions/io/images/labels/image_label.h"),
+            "");
   EXPECT_EQ(fault("sessions/tables/table.h", "sessions/text/text_table.h"), "");
   EXPECT_EQ(fault("ui/scene/vtk_canvas.cpp", "vtkActor.h"), "");
   EXPECT_EQ(fault("app/run.cpp", "ui/window/application.h"), "");

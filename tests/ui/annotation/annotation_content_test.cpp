@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <tuple>
+
+#include "tests/support/random_pose.h"
 
 namespace boresight::ui {
 namespace {
@@ -11,10 +14,7 @@ namespace {
 class AnnotationContentTest : public testing::Test {
  protected:
   AnnotationContentTest() {
-    look_.camera.width = look_.camera.height = 1000;
-    look_.camera.fx = look_.camera.fy = 1000.0;
-    look_.camera.cx = look_.camera.cy = 500.0;
-    EXPECT_EQ(prepareCamera(look_.camera), Status::kOk);
+    look_.camera = test::makePinhole(1001, 1001, 1000.0);
     look_.camera_from_station.emplace().translation_m = {0.0, 0.0, 1.0};
   }
 
@@ -26,15 +26,10 @@ class AnnotationContentTest : public testing::Test {
     return point;
   }
   /// The sign that carries the label.
-  static Mark labelled(const std::vector<Mark>& signs) {
-    for (const Mark& mark : signs)
+  Mark signOf(const sessions::PointPair& point) {
+    for (const Mark& mark : annotationSigns({{point}, {}}, look_))
       if (!mark.label.isEmpty()) return mark;
     return {};
-  }
-  Mark signOf(const sessions::PointPair& point) {
-    sessions::Annotations annotations;
-    annotations.points = {point};
-    return labelled(annotationSigns(annotations, look_));
   }
 
   AnnotationLook look_;
@@ -46,15 +41,12 @@ TEST_F(AnnotationContentTest, PointStates_DifferInShapeOrLabel) {
   points[2].pixel.reset();
   points[3].enabled = false;
   points[4].locked = true;
-  std::set<QString> looks;
+  std::set<std::tuple<MarkShape, bool, QString>> looks;
   for (std::size_t i = 0; i < points.size(); ++i) {
     look_.outliers.clear();
     if (i == 5) look_.outliers["p1"] = 4.2;
     const Mark mark = signOf(points[i]);
-    looks.insert(QStringLiteral("%1 %2 %3")
-                     .arg(static_cast<int>(mark.shape))
-                     .arg(mark.dashed)
-                     .arg(mark.label));
+    looks.insert({mark.shape, mark.dashed, mark.label});
     EXPECT_TRUE(mark.label.contains(QStringLiteral("p1")));
     EXPECT_EQ(mark.item, 0);
   }
@@ -73,12 +65,10 @@ TEST_F(AnnotationContentTest, PointWithoutPixel_IsDrawnAtItsProjection) {
 }
 
 TEST_F(AnnotationContentTest, SelectedAnnotation_HasARingAndAnItemId) {
-  sessions::Annotations annotations;
-  annotations.points = {complete("p1"), complete("p2")};
   sessions::LinePair line;
   line.id = "l1";
   line.line = sessions::ImageLine{{10.0, 20.0}, {110.0, 60.0}};
-  annotations.lines = {line};
+  const sessions::Annotations annotations = {{complete("p1"), complete("p2")}, {line}};
   const std::size_t unchosen = annotationSigns(annotations, look_).size();
   look_.selected = "p2";
   const auto signs = annotationSigns(annotations, look_);

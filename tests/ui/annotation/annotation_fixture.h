@@ -15,6 +15,7 @@
 #include "sessions/annotation/annotations.h"
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/mesh_snap.h"
+#include "tests/ui/pointer.h"
 #include "tests/ui/window_test.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/annotation_tool.h"
@@ -28,10 +29,11 @@
 
 namespace boresight::ui {
 
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
 class AnnotationTest : public ::testing::Test {
  protected:
-  static constexpr int kPatience_ms = 60000;
-
   void SetUp() override {
     static const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
     ASSERT_TRUE(document_.create(folder_.path() / "one.boresight.json", session));
@@ -46,63 +48,66 @@ class AnnotationTest : public ::testing::Test {
   const sessions::SessionCase& source() const { return state_.currentCase()->source; }
   const Pose& truth() const { return *source().camera_from_station_truth; }
   const Camera& camera() const { return source().camera; }
+  const sessions::Annotations& annotations() const { return controller_.annotations(); }
 
+  static bool wait(const std::function<bool()>& holds) {
+    return QTest::qWaitFor(holds, test::kPatienceMs);
+  }
   /// Waits until what is annotated now has been solved.
   bool solved() {
-    return QTest::qWaitFor([this] { return !controller_.stale(); }, kPatience_ms);
+    return wait([this] { return !controller_.stale(); });
   }
 
   /// Corners of salient edges, spread over the station, that the true pose projects into the image.
-  std::vector<Eigen::Vector3d> corners_m(std::size_t count) const {
+  std::vector<Vector3d> corners_m(std::size_t count) const {
     const sessions::MeshSnapper snapper(state_.currentCase()->scene.view());
-    std::vector<Eigen::Vector3d> seen;
+    std::vector<Vector3d> seen;
     const std::size_t stride = std::max<std::size_t>(snapper.edges().size() / 60, 1);
     for (std::size_t i = 0; i < snapper.edges().size(); i += stride) {
-      const Eigen::Vector3d& corner_m = snapper.edges()[i].start_in_station_m;
-      const Eigen::Vector2d pixel = pixelOf(corner_m);
+      const Vector3d& corner_m = snapper.edges()[i].start_in_station_m;
+      const Vector2d pixel = pixelOf(corner_m);
       if (!sessions::isInImage(camera(), pixel)) continue;
       for (const sessions::MeshSnap& snap : snapper.near(camera(), truth(), pixel, 2.0))
         if (snap.kind == sessions::MeshSnapKind::kVertex && snap.point_in_station_m == corner_m)
           seen.push_back(corner_m);
     }
-    std::vector<Eigen::Vector3d> spread;
+    std::vector<Vector3d> spread;
     for (std::size_t i = 0; i < count && seen.size() >= count; ++i)
       spread.push_back(seen[i * (seen.size() - 1) / std::max<std::size_t>(count - 1, 1)]);
     return spread;
   }
 
-  Eigen::Vector2d pixelOf(const Eigen::Vector3d& point_in_station_m) const {
-    Eigen::Vector2d pixel = Eigen::Vector2d::Constant(-1e9);
+  Vector2d pixelOf(const Vector3d& point_in_station_m) const {
+    Vector2d pixel = Vector2d::Constant(-1e9);
     (void)project(camera(), truth() * point_in_station_m, pixel);
     return pixel;
   }
 
-  /// Opens landmarks at these places and annotations some of them where the true pose shows them.
-  void openLandmarks(const std::vector<Eigen::Vector3d>& places_m,
-                     std::initializer_list<std::size_t> annotated) {
-    std::vector<sessions::Landmark> landmarks;
-    for (std::size_t i = 0; i < places_m.size(); ++i)
-      landmarks.push_back({"corner " + std::to_string(i), places_m[i], ""});
-    sessions::writeLandmarks(folder_.path() / "landmarks.json", landmarks);
-    controller_.setLandmarksFile(folder_.path() / "landmarks.json");
-    for (const std::size_t i : annotated) {
-      controller_.begin(landmarks.at(i));
-      EXPECT_EQ(controller_.placeInImage(pixelOf(places_m[i])), landmarks[i].name);
-    }
-  }
-
   /// Annotates a point exactly where the true pose projects it; returns its id.
-  std::string annotatePair(const Eigen::Vector3d& place_m) {
+  std::string annotatePair(const Vector3d& place_m) {
     const std::string id = controller_.placeInImage(pixelOf(place_m));
     EXPECT_EQ(controller_.placeOnStation(place_m), id);
     return id;
   }
 
-  /// Annotations corners exactly where the true pose shows them; their ids.
+  /// Annotates corners exactly where the true pose shows them; their ids.
   std::vector<std::string> markCorners(std::size_t count) {
     std::vector<std::string> ids;
-    for (const Eigen::Vector3d& corner_m : corners_m(count)) ids.push_back(annotatePair(corner_m));
+    for (const Vector3d& corner_m : corners_m(count)) ids.push_back(annotatePair(corner_m));
     return ids;
+  }
+  std::vector<std::string> solveCorners(std::size_t count) {
+    const std::vector<std::string> ids = markCorners(count);
+    EXPECT_EQ(ids.size(), count);
+    EXPECT_TRUE(solved() && controller_.solvedPose());
+    return ids;
+  }
+  /// Moves the first point in the image, and solves again.
+  void moveFirst(const Vector2d& by_px) {
+    const sessions::PointPair first = annotations().points.at(0);
+    ASSERT_TRUE(controller_.dragInImage(first.id, *first.pixel + by_px));
+    controller_.finishMove();
+    ASSERT_TRUE(solved());
   }
 
   test::TemporaryFolder folder_;
@@ -123,46 +128,32 @@ class ImagePointer {
   }
 
   /// Sets the scale, widget coordinates per image pixel, and centres the view on a pixel.
-  void zoom(const Eigen::Vector2d& pixel, double scale) {
+  void zoom(const Vector2d& pixel, double scale) {
     ViewTransform transform = view().transform();
     transform.zoomAt(QPointF(0.0, 0.0), scale);
     transform.centreOn(QPointF(pixel.x(), pixel.y()), view().size());
     view().setTransform(transform);
   }
 
-  void send(QEvent::Type type, const Eigen::Vector2d& pixel,
-            Qt::KeyboardModifiers modifiers = Qt::NoModifier,
-            Qt::MouseButton button = Qt::LeftButton, bool held = false) {
-    const QPointF at = cornerOfScreenPixel(pixel);
-    const bool moves = type == QEvent::MouseMove;
-    QMouseEvent event(type, at, QPointF(view().mapToGlobal(QPoint(0, 0))) + at,
-                      moves ? Qt::NoButton : button,
-                      type == QEvent::MouseButtonPress || held ? button : Qt::NoButton, modifiers);
-    QCoreApplication::sendEvent(&view(), &event);
+  void send(QEvent::Type type, const Vector2d& pixel, Qt::MouseButton button = Qt::LeftButton,
+            Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    const QPointF at = view().transform().toWidget(pointOf(pixel));
+    test::sendMouse(view(), type, test::cornerOfScreenPixel(view(), at), button, modifiers);
   }
-  void moveTo(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    send(QEvent::MouseMove, pixel, modifiers);
+  void moveTo(const Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    send(QEvent::MouseMove, pixel, Qt::NoButton, modifiers);
   }
-  void click(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier,
+  void click(const Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier,
              Qt::MouseButton button = Qt::LeftButton) {
     moveTo(pixel, modifiers);
-    send(QEvent::MouseButtonPress, pixel, modifiers, button);
-    send(QEvent::MouseButtonRelease, pixel, modifiers, button);
+    send(QEvent::MouseButtonPress, pixel, button, modifiers);
+    send(QEvent::MouseButtonRelease, pixel, button, modifiers);
   }
-  void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  void drag(const Vector2d& from, const Vector2d& to) {
     moveTo(from);
     send(QEvent::MouseButtonPress, from);
-    send(QEvent::MouseMove, 0.5 * (from + to), Qt::NoModifier, Qt::LeftButton, true);
-    send(QEvent::MouseMove, to, Qt::NoModifier, Qt::LeftButton, true);
+    for (const Vector2d& at : {Vector2d(0.5 * (from + to)), to}) send(QEvent::MouseMove, at);
     send(QEvent::MouseButtonRelease, to);
-  }
-
- private:
-  /// What the windowing system tells when the pointer's tip is on the screen pixel of a place.
-  QPointF cornerOfScreenPixel(const Eigen::Vector2d& pixel) {
-    const double ratio = view().devicePixelRatioF();
-    const QPointF at = view().transform().toWidget(QPointF(pixel.x(), pixel.y()));
-    return QPointF(std::floor(at.x() * ratio), std::floor(at.y() * ratio)) / ratio;
   }
 };
 
@@ -179,8 +170,7 @@ class ImageAnnotationTest : public AnnotationTest, protected ImagePointer {
   }
 
   void ready() {
-    ASSERT_TRUE(QTest::qWaitFor([this] { return snapper_.mesh() != nullptr; }, kPatience_ms));
-    ASSERT_TRUE(QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatience_ms));
+    ASSERT_TRUE(wait([this] { return snapper_.mesh() && !tasks_.isBusy(); }));
   }
 
   /// The open case with another image of the same size.
@@ -200,7 +190,6 @@ class ImageAnnotationTest : public AnnotationTest, protected ImagePointer {
 
   ImageView& view() override { return panel_.view(); }
   AnnotationTool& tool() { return annotation_.tool(); }
-  const sessions::Annotations& annotations() const { return controller_.annotations(); }
 
   TaskRunner tasks_;
   ImagePanel panel_{state_, tasks_};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/annotation_panel.h"
 
+#include <algorithm>
+
 #include <QtWidgets>
 
 #include "sessions/session/rig_links.h"
@@ -25,6 +27,7 @@ class AnnotationPanelTest : public AnnotationTest {
     EXPECT_NE(found, nullptr) << name;
     return *found;
   }
+  QString meter() { return find<QLabel>("geometryMeter").text(); }
   QString headline() { return find<QLabel>("headline").text(); }
   QString summary() { return find<QTextBrowser>("solution").toPlainText(); }
   void clickCell(int row, int column) {
@@ -33,42 +36,23 @@ class AnnotationPanelTest : public AnnotationTest {
                       table.visualRect(table.model()->index(row, column)).center());
   }
 
-  /// Four points of a small square far away: two poses explain them when they are seen with noise.
-  sessions::Annotations smallSquare() const {
-    sessions::Annotations annotations;
-    for (int i = 0; i < 4; ++i) {
-      sessions::PointPair point;
-      point.id = "s" + std::to_string(i);
-      point.point_in_station_m = Eigen::Vector3d((i & 1) * 0.008, (i >> 1) * 0.008, 0.0);
-      point.pixel = pixelOf(*point.point_in_station_m) + Eigen::Vector2d(0.2 * (i - 1.5), 0.0);
-      point.sigma_px = 0.5;
-      annotations.points.push_back(point);
-    }
-    return annotations;
-  }
-
   std::unique_ptr<AnnotationPanel> panel_;
 };
 
 TEST_F(AnnotationPanelTest, Headline_ReportsMissingPairsSolutionAndStaleness) {
-  EXPECT_FALSE(headline().isEmpty());
   controller_.placeInImage({100.0, 100.0});
   ASSERT_TRUE(solved());
-  EXPECT_TRUE(find<QLabel>("geometryMeter").text().contains(QStringLiteral("too few")));
+  EXPECT_TRUE(test::has(meter(), "too few"));
   EXPECT_FALSE(find<QPushButton>("annotationAsTruth").isEnabled());
   controller_.remove("p1");
-  const auto ids = markCorners(8);
-  EXPECT_TRUE(headline().contains(QStringLiteral("Stale"))) << headline().toStdString();
+  markCorners(8);
+  EXPECT_TRUE(test::has(headline(), "Stale"));
   EXPECT_FALSE(find<QTextBrowser>("solution").isEnabled());
   ASSERT_TRUE(solved());
   EXPECT_TRUE(headline().startsWith(QStringLiteral("Solved from 8 annotations")));
-  for (const char* said : {"normal", "lateral", "rotation", "seed", "truth"})
-    EXPECT_TRUE(summary().contains(QString::fromLatin1(said))) << said;
-}
+  for (const char* word : {"normal", "lateral", "rotation", "seed", "truth"})
+    EXPECT_TRUE(test::has(summary(), word));
 
-TEST_F(AnnotationPanelTest, CameraSigma_IsShownOnlyWithAnEndEffector) {
-  markCorners(8);
-  ASSERT_TRUE(solved());
   const auto htmlWith = [this](const std::optional<Pose>& camera_from_end_effector) {
     AnnotationAnswer answer = controller_.answer();
     auto solution = std::make_shared<sessions::CaseAnnotationsSolution>(*answer.solution);
@@ -76,97 +60,107 @@ TEST_F(AnnotationPanelTest, CameraSigma_IsShownOnlyWithAnEndEffector) {
     answer.solution = solution;
     return solutionHtml(answer, {{QStringLiteral("seed"), Pose()}});
   };
-  const QString at_camera = QStringLiteral(">at the camera");
   const QString without = htmlWith({});
-  EXPECT_FALSE(without.contains(at_camera)) << "said once";
-  EXPECT_TRUE(without.contains(QStringLiteral("3 sigma at the camera")));
-  EXPECT_TRUE(without.contains(QStringLiteral("Distance of the annotated pose at the camera")));
+  EXPECT_FALSE(without.contains(QStringLiteral(">at the camera"))) << "said once";
+  EXPECT_TRUE(test::has(without, "3 sigma at the camera"));
+  EXPECT_TRUE(test::has(without, "Distance of the annotated pose at the camera"));
   Pose camera_from_end_effector;
   camera_from_end_effector.translation_m = {0.0, 0.1, 0.2};
   const QString with = htmlWith(camera_from_end_effector);
-  EXPECT_TRUE(with.contains(at_camera));
-  EXPECT_TRUE(with.contains(QStringLiteral("3 sigma at the end effector")));
+  EXPECT_TRUE(test::has(with, ">at the camera"));
+  EXPECT_TRUE(test::has(with, "3 sigma at the end effector"));
 }
 
-TEST_F(AnnotationPanelTest, GeometryIsWeakWhereTheSigmaExceedsTheRequirement) {
-  const auto ids = markCorners(5);
-  ASSERT_TRUE(solved());
-  const auto meter = [this] { return find<QLabel>("geometryMeter").text(); };
+TEST_F(AnnotationPanelTest, WeakGeometry_IsShownAndReportedWithTheTruthMadeOfIt) {
+  QSignalSpy told(&controller_, &AnnotationController::told);
+  const Pose before = truth();
+  const auto stored = [this]() -> const sessions::SessionCase& {
+    return *document_.session().findCase(source().id);
+  };
+  controller_.useAsTruth();
+  EXPECT_EQ(stored().camera_from_station_truth, before) << "there is no pose yet";
+  solveCorners(5);
   EXPECT_FALSE(meter().contains(QStringLiteral("pose known to"))) << meter().toStdString();
-  controller_.dragInImage(ids[0], pixelOf(corners_m(5)[0]) + Eigen::Vector2d(30.0, 40.0));
-  controller_.finishMove();
-  ASSERT_TRUE(solved());
-  EXPECT_TRUE(meter().contains(QStringLiteral("pose known to"))) << meter().toStdString();
-  EXPECT_FALSE(meter().contains(QStringLiteral("no weakness")));
+  told.clear();
+  controller_.useAsTruth();
+  EXPECT_EQ(stored().camera_from_station_truth, controller_.solvedPose());
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_FALSE(test::has(told[0][0].toString(), "sigma"));
+  moveFirst({30.0, 40.0});
+  EXPECT_TRUE(test::has(meter(), "pose known to"));
+  EXPECT_FALSE(test::has(meter(), "no weakness"));
+  QTest::mouseClick(&find<QPushButton>("annotationAsTruth"), Qt::LeftButton);
+  ASSERT_EQ(told.size(), 2);
+  EXPECT_TRUE(test::has(told[1][0].toString(), "Its one sigma is"));
+  EXPECT_TRUE(test::has(told[1][0].toString(), "required"));
+  EXPECT_EQ(stored().camera_from_station_truth, controller_.solvedPose())
+      << "the operator may go on";
+  ASSERT_TRUE(stored().truth_covariance);
+  EXPECT_EQ(stored().truth_covariance, controller_.answer().covariance);
+  ASSERT_TRUE(document_.undo());
+  ASSERT_TRUE(document_.undo());  // the drag
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(stored().camera_from_station_truth, before);
 }
 
-TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {
+TEST_F(AnnotationPanelTest, Table_SelectsMovesTurnsOffRemovesAndLeadsToTheImage) {
   const auto ids = markCorners(5);
+  const auto& points = annotations().points;
   clickCell(2, AnnotationsModel::kName);
   EXPECT_EQ(controller_.selected(), ids[2]);
   QTest::keyClick(panel_.get(), Qt::Key_Space);
-  EXPECT_FALSE(controller_.annotations().points[2].enabled);
+  EXPECT_FALSE(points[2].enabled);
   EXPECT_EQ(document_.undoText(), QStringLiteral("Turn p3 off"));
   QTest::keyClick(panel_.get(), Qt::Key_Delete);
-  EXPECT_EQ(controller_.annotations().points.size(), 4u);
+  EXPECT_EQ(points.size(), 4u);
   ASSERT_TRUE(document_.undo());
   ASSERT_TRUE(document_.undo());
-  EXPECT_TRUE(controller_.annotations().points[2].enabled);
+  EXPECT_TRUE(points[2].enabled);
   controller_.select(ids[4]);
   EXPECT_EQ(panel_->table().currentIndex().row(), 4) << "the table follows the other views";
   QAbstractItemModel& model = *panel_->table().model();
   ASSERT_TRUE(model.setData(model.index(1, AnnotationsModel::kComment), QStringLiteral("rim")));
-  EXPECT_EQ(controller_.annotations().points[1].comment, "rim");
-}
+  EXPECT_EQ(points[1].comment, "rim");
 
-TEST_F(AnnotationPanelTest, ArrowsOnARowMoveItsAnnotationAndCtrlGoesToOtherRows) {
-  const auto ids = markCorners(5);
   clickCell(2, AnnotationsModel::kName);
-  const Eigen::Vector2d before = *controller_.annotations().points[2].pixel;
+  const Vector2d before = *points[2].pixel;
   QTest::keyClick(&panel_->table(), Qt::Key_Right);
   QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ShiftModifier);
   EXPECT_EQ(controller_.selected(), ids[2]);
-  EXPECT_LT(
-      (*controller_.annotations().points[2].pixel - before - Eigen::Vector2d(0.1, 1.0)).norm(),
-      1e-9);
+  EXPECT_LT((*points[2].pixel - before - Vector2d(0.1, 1.0)).norm(), 1e-9);
   QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ControlModifier);
   EXPECT_EQ(controller_.selected(), ids[3]);
-}
 
-TEST_F(AnnotationPanelTest, EnterOnARowGoesToItsAnnotationInTheImage) {
-  const auto ids = markCorners(5);
   controller_.setMode(PlaceMode::kOff);
-  bool requested = false;
-  QObject::connect(panel_.get(), &AnnotationPanel::imageRequested, panel_.get(),
-                   [&requested] { requested = true; });
+  QSignalSpy requested(panel_.get(), &AnnotationPanel::imageRequested);
   clickCell(2, AnnotationsModel::kName);
   QTest::keyClick(&panel_->table(), Qt::Key_Return);
-  EXPECT_TRUE(requested);
+  EXPECT_GE(requested.count(), 1);
   EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);
   EXPECT_EQ(controller_.selected(), ids[2]);
 }
 
-TEST_F(AnnotationPanelTest, ButtonsSetModeWeightsAndTruth) {
-  QTest::mouseClick(&find<QToolButton>("placePoints"), Qt::LeftButton);
+TEST_F(AnnotationPanelTest, ButtonsSetModeAndRobustWeights) {
+  const auto click = [this](const char* name) {
+    QTest::mouseClick(&find<QToolButton>(name), Qt::LeftButton);
+  };
+  click("placePoints");
   EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);
-  QTest::mouseClick(&find<QToolButton>("placeLines"), Qt::LeftButton);
+  click("placeLines");
   EXPECT_EQ(controller_.mode(), PlaceMode::kLine);
   EXPECT_FALSE(find<QToolButton>("placePoints").isChecked());
-  QTest::mouseClick(&find<QToolButton>("placeLines"), Qt::LeftButton);
+  click("placeLines");
   EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
-  const auto ids = markCorners(8);
-  ASSERT_TRUE(solved());
+  solveCorners(8);
   const Pose before = *controller_.solvedPose();
-  controller_.dragInImage(ids[0], pixelOf(corners_m(8)[0]) + Eigen::Vector2d(0.0, 20.0));
-  controller_.finishMove();
-  ASSERT_TRUE(solved());
-  const auto far_off = (controller_.solvedPose()->translation_m - before.translation_m).norm();
+  const auto distance_m = [&] {
+    return (controller_.solvedPose()->translation_m - before.translation_m).norm();
+  };
+  moveFirst({0.0, 20.0});
+  const double far_off_m = distance_m();
   find<QCheckBox>("robust").click();
   ASSERT_TRUE(document_.session().robust_annotations && solved());
-  EXPECT_LT((controller_.solvedPose()->translation_m - before.translation_m).norm(), 0.1 * far_off);
-  QTest::mouseClick(&find<QPushButton>("annotationAsTruth"), Qt::LeftButton);
-  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth,
-            controller_.solvedPose());
+  EXPECT_LT(distance_m(), 0.1 * far_off_m);
 }
 
 TEST_F(AnnotationPanelTest, CoplanarAnnotations_ShowBothPosesSideBySide) {
@@ -174,20 +168,29 @@ TEST_F(AnnotationPanelTest, CoplanarAnnotations_ShowBothPosesSideBySide) {
   auto* ambiguity = new AmbiguityView(controller_, state_, snapper);
   panel_->addBeside(ambiguity);
   EXPECT_FALSE(ambiguity->isVisibleTo(panel_.get()));
-  controller_.setAnnotations(smallSquare(), QStringLiteral("Import"));
+  // Four points of a small square far away: two poses explain them when they are seen with noise.
+  sessions::Annotations square;
+  for (int i = 0; i < 4; ++i) {
+    sessions::PointPair& point = square.points.emplace_back();
+    point.id = "s" + std::to_string(i);
+    point.point_in_station_m = Vector3d((i & 1) * 0.008, (i >> 1) * 0.008, 0.0);
+    point.pixel = pixelOf(*point.point_in_station_m) + Vector2d(0.2 * (i - 1.5), 0.0);
+    point.sigma_px = 0.5;
+  }
+  controller_.setAnnotations(square, QStringLiteral("Import"));
   ASSERT_TRUE(solved());
   ASSERT_TRUE(controller_.solution()->ambiguous_camera_from_station())
       << "the case is not ambiguous";
   EXPECT_TRUE(ambiguity->isVisibleTo(panel_.get()));
-  EXPECT_TRUE(summary().contains(QStringLiteral("fit two poses")));
+  EXPECT_TRUE(test::has(summary(), "fit two poses"));
   const auto edges = [this](const char* view) -> const std::vector<Mark>& {
     return find<ImageView>(view).layer(LayerId::kAnnotationBand).marks;
   };
-  ASSERT_TRUE(QTest::qWaitFor([&] { return !edges("otherPicture").empty(); }, kPatience_ms));
+  ASSERT_TRUE(wait([&] { return !edges("otherPicture").empty(); }));
   EXPECT_NE(edges("otherPicture").front().outline, edges("bestPicture").front().outline);
   EXPECT_EQ(find<ImageView>("bestPicture").layer(LayerId::kPoints).marks.size(), 4u);
   Pose asked;
-  QObject::connect(ambiguity, &AmbiguityView::otherRequested, ambiguity,
+  QObject::connect(ambiguity, &AmbiguityView::otherRequested,
                    [&](const Pose& pose) { asked = pose; });
   QTest::mouseClick(&find<QPushButton>("showOtherPose"), Qt::LeftButton);
   EXPECT_EQ(asked, *controller_.solution()->ambiguous_camera_from_station());
@@ -200,15 +203,15 @@ TEST_F(AnnotationPanelTest, LinkedCases_AreSolvedTogether) {
   ASSERT_TRUE(document_.edit(sessions::withCase(document_.session(), second),
                              QStringLiteral("Add a case")));
   auto& menu = static_cast<RigMenu&>(*find<QToolButton>("rig").menu());
-  const auto action = [&](const QString& text) -> QAction* {
+  const auto trigger = [&](const QString& text) {
     Q_EMIT menu.aboutToShow();
-    for (QAction* each : menu.findChildren<QAction*>())
-      if (each->text().contains(text)) return each;
-    return nullptr;
+    const auto actions = menu.findChildren<QAction*>();
+    const auto found = std::ranges::find_if(
+        actions, [&](const QAction* action) { return action->text().contains(text); });
+    ASSERT_NE(found, actions.end()) << text.toStdString();
+    (*found)->trigger();
   };
-  QAction* link = action(QStringLiteral("not moved"));
-  ASSERT_NE(link, nullptr);
-  link->trigger();
+  trigger(QStringLiteral("not moved"));
   EXPECT_EQ(sessions::casesOfRig(document_.session(), first),
             std::vector<std::string>{"second image"});
   // Three annotations in either image: one alone would not do without its seed.
@@ -220,13 +223,11 @@ TEST_F(AnnotationPanelTest, LinkedCases_AreSolvedTogether) {
   ASSERT_TRUE(controller_.solvedPose());
   EXPECT_EQ(controller_.solution()->result.solution->annotations.size(), 6u);
   EXPECT_LT((controller_.solvedPose()->translation_m - truth().translation_m).norm(), 1e-6);
-  EXPECT_TRUE(summary().contains(QStringLiteral("Cameras solved together")));
+  EXPECT_TRUE(test::has(summary(), "Cameras solved together"));
   find<QCheckBox>("together").click();
   ASSERT_TRUE(solved());
   EXPECT_EQ(controller_.solution()->annotations.views.size(), 1u);
-  QAction* unlink = action(QStringLiteral("out of this rig"));
-  ASSERT_NE(unlink, nullptr);
-  unlink->trigger();
+  trigger(QStringLiteral("out of this rig"));
   EXPECT_FALSE(document_.session().findCase(first)->rig);
 }
 

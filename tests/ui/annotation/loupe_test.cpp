@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/loupe.h"
 
-#include <QWheelEvent>
-
 #include "tests/ui/annotation/annotation_fixture.h"
+#include "tests/ui/pixels.h"
 
 namespace boresight::ui {
 namespace {
@@ -32,37 +31,32 @@ struct LoupeCase {
   int side;  ///< in coordinates
 };
 
-class LoupePictureTest : public testing::TestWithParam<LoupeCase> {};
-
-TEST_P(LoupePictureTest, EveryScreenPixelHasTheGrayOfTheImagePixelUnderItsMiddle) {
-  const auto [ratio, magnification, side] = GetParam();
-  const auto samples = pattern(100);
-  const int screen = static_cast<int>(std::lround(side * ratio));
-  for (const QPointF& focus :
-       {QPointF(50.013, 40.021), QPointF(33.37, 61.92), QPointF(1.2, 98.7)}) {
-    ViewTransform transform;
-    transform.zoomAt(QPointF(0.0, 0.0), magnification / ratio);
-    transform.centreOn(focus, QSizeF(side, side));
-    const QImage picture = loupePicture(*samples, transform, QSize(screen, screen), ratio);
-    ASSERT_EQ(picture.size(), QSize(screen, screen));
-    int wrong = 0;
-    for (int y = 0; y < screen; ++y)
-      for (int x = 0; x < screen; ++x) {
+TEST(LoupePicture, EveryScreenPixelHasTheGrayOfTheImagePixelUnderItsMiddle) {
+  for (const auto& [ratio, magnification, side] :
+       {LoupeCase{1.0, 8.0, 200}, LoupeCase{1.5, 8.0, 168}, LoupeCase{2.0, 8.0, 168},
+        LoupeCase{1.0, 11.3, 201}, LoupeCase{1.5, 22.6, 168}, LoupeCase{2.0, 64.0, 320}}) {
+    SCOPED_TRACE(testing::Message() << ratio << " " << magnification);
+    const auto samples = pattern(100);
+    const int screen = static_cast<int>(std::lround(side * ratio));
+    for (const QPointF& focus :
+         {QPointF(50.013, 40.021), QPointF(33.37, 61.92), QPointF(1.2, 98.7)}) {
+      ViewTransform transform;
+      transform.zoomAt(QPointF(0.0, 0.0), magnification / ratio);
+      transform.centreOn(focus, QSizeF(side, side));
+      const QImage picture = loupePicture(*samples, transform, QSize(screen, screen), ratio);
+      ASSERT_EQ(picture.size(), QSize(screen, screen));
+      const auto wrong = [&](int x, int y) {
         const int u = pixelUnder(focus.x(), x, screen, magnification);
         const int v = pixelUnder(focus.y(), y, screen, magnification);
         const bool inside = u >= 0 && v >= 0 && u < 100 && v < 100;
-        const QRgb drawn = picture.pixel(x, y);
+        const int drawn = qRed(picture.pixel(x, y));
         // The stretch of a pattern from 0 to 255 changes nothing.
-        if (inside ? qRed(drawn) != grayAt(u, v) : qRed(drawn) > 40) ++wrong;
-      }
-    EXPECT_EQ(wrong, 0) << focus.x() << ", " << focus.y();
+        return inside ? drawn != grayAt(u, v) : drawn > 40;
+      };
+      EXPECT_EQ(test::countPixels(picture.size(), wrong), 0) << focus.x() << ", " << focus.y();
+    }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Ratios, LoupePictureTest,
-                         testing::Values(LoupeCase{1.0, 8.0, 200}, LoupeCase{1.5, 8.0, 168},
-                                         LoupeCase{2.0, 8.0, 168}, LoupeCase{1.0, 11.3, 201},
-                                         LoupeCase{1.5, 22.6, 168}, LoupeCase{2.0, 64.0, 320}));
 
 TEST(LoupePicture, FaintContrastIsStretchedToWhatIsShown) {
   sessions::ImageSamples samples;
@@ -88,9 +82,9 @@ class LoupeTest : public ImageAnnotationTest {
   Loupe& loupe() { return annotation_.loupe(); }
 };
 
-TEST_F(LoupeTest, FollowsThePointerInTheCornerThatItIsNotIn) {
+TEST_F(LoupeTest, FollowsThePointerInTheCornerThatItIsNotIn_UntilItIsOffOrThePointerLeaves) {
   panel_.view().fit();
-  const Eigen::Vector2d middle(512.3, 500.6);
+  const Vector2d middle(512.3, 500.6);
   moveTo(middle);
   ASSERT_TRUE(loupe().isVisible());
   EXPECT_NEAR(loupe().place()->x(), middle.x(), screenPixel_px());
@@ -103,18 +97,15 @@ TEST_F(LoupeTest, FollowsThePointerInTheCornerThatItIsNotIn) {
     const QPointF at = view().transform().toWidget(QPointF(x, 20.0));
     EXPECT_FALSE(loupe().geometry().contains(at.toPoint())) << x;
   }
+  for (const bool on : {false, true}) {
+    loupe().setSwitchedOn(on);
+    EXPECT_EQ(loupe().isVisible(), on);
+  }
   QEvent leave(QEvent::Leave);
   QCoreApplication::sendEvent(&view(), &leave);
   EXPECT_FALSE(loupe().isVisible());
-}
-
-TEST_F(LoupeTest, Loupe_SwitchedOffOrOutsideAnnotationMode_IsHidden) {
-  moveTo({500.0, 500.0});
+  moveTo(middle);
   ASSERT_TRUE(loupe().isVisible());
-  loupe().setSwitchedOn(false);
-  EXPECT_FALSE(loupe().isVisible());
-  loupe().setSwitchedOn(true);
-  EXPECT_TRUE(loupe().isVisible());
   controller_.setMode(PlaceMode::kOff);
   EXPECT_FALSE(loupe().isVisible());
 }
@@ -123,18 +114,13 @@ TEST_F(LoupeTest, CtrlAndTheWheelMagnifyItWithinBoundsAndTheViewStays) {
   moveTo({500.0, 500.0});
   EXPECT_EQ(loupe().magnification(), 8.0);
   const ViewTransform before = view().transform();
-  const auto turn = [&](int notches) {
-    const QPointF at(100.0, 100.0);
-    QWheelEvent event(at, view().mapToGlobal(at.toPoint()), {}, {0, 120 * notches}, Qt::NoButton,
-                      Qt::ControlModifier, Qt::NoScrollPhase, false);
-    QCoreApplication::sendEvent(&view(), &event);
+  const auto turned = [&](int notches) {
+    test::turnWheel(view(), {100.0, 100.0}, notches, Qt::ControlModifier);
+    return loupe().magnification();
   };
-  turn(2);
-  EXPECT_NEAR(loupe().magnification(), 16.0, 1e-9);
-  turn(20);
-  EXPECT_EQ(loupe().magnification(), 64.0);
-  turn(-40);
-  EXPECT_EQ(loupe().magnification(), 4.0);
+  EXPECT_NEAR(turned(2), 16.0, 1e-9);
+  EXPECT_EQ(turned(20), 64.0);
+  EXPECT_EQ(turned(-40), 4.0);
   EXPECT_EQ(view().transform(), before);
   zoom({500.0, 500.0}, 10.0);
   EXPECT_NEAR(loupe().magnification(), 20.0 * view().devicePixelRatioF(), 1e-9)
@@ -144,30 +130,24 @@ TEST_F(LoupeTest, CtrlAndTheWheelMagnifyItWithinBoundsAndTheViewStays) {
 /// Light on the loupe where the annotation is, at its place to half a screen pixel.
 TEST_F(LoupeTest, DrawsAnnotationsAtTheirPlace) {
   paintImage([](int, int) { return 0.0; });
-  const Eigen::Vector2d place(500.37, 480.81);
+  const Vector2d place(500.37, 480.81);
   zoom(place, 3.7);
   click(place);
   controller_.select({});
-  const Eigen::Vector2d annotated = *annotations().points[0].pixel;
-  moveTo(place + Eigen::Vector2d(4.0, 3.0));
+  const Vector2d annotated = *annotations().points[0].pixel;
+  moveTo(place + Vector2d(4.0, 3.0));
   const QImage picture = loupe().grab().toImage();
   const double ratio = picture.devicePixelRatio();
   const QPointF expected =
       ratio * loupe().transform().toWidget(QPointF(annotated.x(), annotated.y()));
-  QPointF sum;
-  double weight = 0.0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) {
-      const QPointF off = QPointF(x + 0.5, y + 0.5) - expected;
-      if (std::hypot(off.x(), off.y()) > 11.0 * ratio) continue;  // its label is beyond
-      const QRgb color = picture.pixel(x, y);
-      const double yellow = std::max(0, qRed(color) - qBlue(color) - 30);
-      sum += yellow * off;
-      weight += yellow;
-    }
-  ASSERT_GT(weight, 1000.0);
-  EXPECT_LT(std::abs(sum.x() / weight), 0.5);
-  EXPECT_LT(std::abs(sum.y() / weight), 0.5);
+  const QPointF found =
+      test::centroid(picture, 1000.0, [&](const QPointF& at, QRgb color) -> double {
+        const QPointF off = at - expected;
+        if (std::hypot(off.x(), off.y()) > 11.0 * ratio) return 0.0;  // its label is beyond
+        return std::max(0, qRed(color) - qBlue(color) - 30);
+      });
+  EXPECT_NEAR(found.x(), expected.x(), 0.5);
+  EXPECT_NEAR(found.y(), expected.y(), 0.5);
 }
 
 }  // namespace

@@ -14,10 +14,10 @@
 namespace boresight::ui {
 namespace {
 
-QAction* actionOf(const QObject& parent, const QString& text) {
+void trigger(const QObject& parent, const char* text) {
   for (QAction* action : parent.findChildren<QAction*>())
-    if (action->text().remove(QLatin1Char('&')) == text) return action;
-  return nullptr;
+    if (action->text().remove(QLatin1Char('&')) == QLatin1String(text)) return action->trigger();
+  ADD_FAILURE() << "there is no action " << text;
 }
 
 /// A small manual of its own.
@@ -38,16 +38,15 @@ class ManualWindowTest : public ::testing::Test {
         .save(QString::fromStdString((folder_ / "pictures/wide.png").string()));
   }
 
-  QString path() const { return QString::fromStdString(folder_.path().string()); }
   QString shown() { return browser_.source().fileName(); }
+  QString place() { return shown() + QString::number(browser_.textCursor().selectionStart()); }
   void find(const char* words) {
     find_.setText(QLatin1String(words));
     QTest::keyClick(&find_, Qt::Key_Return);
   }
-  void trigger(const char* action) { actionOf(window_, QLatin1String(action))->trigger(); }
 
   test::TemporaryFolder folder_;
-  ManualWindow window_{path()};
+  ManualWindow window_{QString::fromStdString(folder_.path().string())};
   QTextBrowser& browser_ = window_.browser();
   QLineEdit& find_ = *window_.findChild<QLineEdit*>(QStringLiteral("manualFind"));
 };
@@ -60,11 +59,11 @@ TEST_F(ManualWindowTest, GoesWhereLinksLeadAndBack) {
   QCoreApplication::processEvents();
   EXPECT_GT(browser_.verticalScrollBar()->value(), 0);
   EXPECT_EQ(browser_.textCursor().block().text(), QStringLiteral("Far below?"));
-  trigger("Back");
+  trigger(window_, "Back");
   EXPECT_EQ(shown(), QStringLiteral("one.md"));
-  trigger("Forward");
+  trigger(window_, "Forward");
   EXPECT_EQ(shown(), QStringLiteral("two.md"));
-  trigger("Contents");
+  trigger(window_, "Contents");
   EXPECT_EQ(shown(), QStringLiteral("index.md"));
 }
 
@@ -74,18 +73,18 @@ TEST_F(ManualWindowTest, FindsOnThePageThenOnTheNextOneAndStartsOver) {
   for (int i = 0; i < 6; ++i) {
     find("ZEBRA");
     EXPECT_EQ(browser_.textCursor().selectedText().toLower(), QStringLiteral("zebra"));
-    found << shown() + QString::number(browser_.textCursor().selectionStart());
+    found << place();
   }
   EXPECT_EQ(QSet<QString>(found.begin(), found.begin() + 5).size(), 5) << "four here, one before";
   EXPECT_TRUE(found[4].startsWith(QStringLiteral("one.md")));
   EXPECT_EQ(found[5], found[0]);
-  trigger("Previous");
-  EXPECT_EQ(shown() + QString::number(browser_.textCursor().selectionStart()), found[4]);
+  trigger(window_, "Previous");
+  EXPECT_EQ(place(), found[4]);
   find("giraffe");
   EXPECT_EQ(window_.statusBar()->currentMessage(), QStringLiteral("Not in the manual: giraffe"));
 }
 
-TEST_F(ManualWindowTest, PicturesAreAsWideAsTheWindowAtMost) {
+TEST_F(ManualWindowTest, PicturesAreAsWideAsTheWindowAtMost_TablesHaveLines) {
   window_.resize(900, 500);
   window_.showPage(QStringLiteral("one.md"));
   for (const int width : {900, 1300, 700}) {
@@ -100,18 +99,10 @@ TEST_F(ManualWindowTest, PicturesAreAsWideAsTheWindowAtMost) {
     EXPECT_LE(shown_width, browser_.viewport()->width()) << width;
     EXPECT_GT(shown_width, browser_.viewport()->width() - 60) << width;
   }
-}
-
-TEST_F(ManualWindowTest, TablesHaveLines) {
-  window_.showPage(QStringLiteral("one.md"));
-  int tables = 0;
-  for (QTextFrame* frame : browser_.document()->rootFrame()->childFrames())
-    if (auto* table = qobject_cast<QTextTable*>(frame)) {
-      ++tables;
-      EXPECT_GT(table->format().border(), 0.0);
-      EXPECT_GE(table->format().cellPadding(), 3.0);
-    }
-  EXPECT_EQ(tables, 1);
+  const auto tables = browser_.document()->findChildren<QTextTable*>();
+  ASSERT_EQ(tables.size(), 1);
+  EXPECT_GT(tables[0]->format().border(), 0.0);
+  EXPECT_GE(tables[0]->format().cellPadding(), 3.0);
 }
 
 TEST(ManualWindow, WithoutPages_ReportsTheMissingManual) {
@@ -130,13 +121,12 @@ TEST(Manual, Folder_IsFoundByTheProgram) {
   ManualWindow window(manualFolder());
   for (const QString& page : pages) {
     window.showPage(page);
-    EXPECT_FALSE(window.browser().toPlainText().isEmpty()) << page.toStdString();
     EXPECT_EQ(window.browser().document()->begin().blockFormat().headingLevel(), 1)
         << page.toStdString();
   }
 }
 
-TEST(Manual, HasASectionForEveryPanel) {
+TEST(Manual, HasASectionForEveryPanel_AndOpensAtThatWithTheFocus) {
   QStandardPaths::setTestModeEnabled(true);
   MainWindow window;
   const QString page = manualText(manualFolder() + QStringLiteral("/window.md"));
@@ -145,11 +135,7 @@ TEST(Manual, HasASectionForEveryPanel) {
   for (const QDockWidget* dock : docks)
     EXPECT_TRUE(page.contains(QStringLiteral("\n## %1\n").arg(dock->windowTitle())))
         << dock->windowTitle().toStdString();
-}
 
-TEST(Manual, OpensAtThePanelThatHasTheFocus) {
-  QStandardPaths::setTestModeEnabled(true);
-  MainWindow window;
   window.show();
   auto* help = window.findChild<ManualHelp*>(QStringLiteral("manualHelp"));
   ASSERT_NE(help, nullptr);
@@ -159,21 +145,16 @@ TEST(Manual, OpensAtThePanelThatHasTheFocus) {
   ASSERT_NE(field, nullptr);
   field->setFocus();
   EXPECT_EQ(help->pageHere(), QStringLiteral("window.md#configuration"));
-  actionOf(window, QStringLiteral("Manual"))->trigger();
+  trigger(window, "Manual");
   ASSERT_NE(help->manual(), nullptr);
   EXPECT_TRUE(help->manual()->isVisible());
   EXPECT_EQ(help->manual()->browser().textCursor().block().text(), QStringLiteral("Configuration"));
-}
 
-TEST(Manual, KeySheet_OpensTheManual) {
-  QStandardPaths::setTestModeEnabled(true);
-  MainWindow window;
   ShortcutSheet sheet(window);
-  bool requested = false;
-  QObject::connect(&sheet, &ShortcutSheet::manualRequested, [&requested] { requested = true; });
+  QSignalSpy requested(&sheet, &ShortcutSheet::manualRequested);
   for (QPushButton* button : sheet.findChildren<QPushButton*>())
     if (button->shortcut() == QKeySequence(Qt::Key_F1)) button->click();
-  EXPECT_TRUE(requested);
+  EXPECT_GE(requested.count(), 1);
 }
 
 }  // namespace

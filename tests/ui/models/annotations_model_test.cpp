@@ -5,30 +5,30 @@
 
 #include <QtTest>
 
+#include "tests/ui/models/tested_model.h"
+
 namespace boresight::ui {
 namespace {
 
-using Tester = QAbstractItemModelTester;
 using sessions::Annotations;
 using sessions::LinePair;
 using sessions::PointPair;
 
 Annotations someAnnotations() {
   Annotations annotations;
-  PointPair whole;
+  annotations.points.resize(2);
+  PointPair& whole = annotations.points[0];
   whole.id = "p1";
   whole.point_in_station_m = {0.1, 0.2, 0.3};
   whole.pixel = {10.25, 20.5};
-  PointPair half;
+  PointPair& half = annotations.points[1];
   half.id = "p2";
   half.pixel = {30.0, 5.0};
   half.enabled = false;
-  annotations.points = {whole, half};
-  LinePair line;
+  LinePair& line = annotations.lines.emplace_back();
   line.id = "l1";
   line.line = {{1.0, 2.0}, {3.0, 4.0}};
   line.edge = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}};
-  annotations.lines.push_back(line);
   return annotations;
 }
 
@@ -53,25 +53,16 @@ AnnotationsModel::SolutionPtr someSolution(const Annotations& annotations) {
   return result;
 }
 
-class AnnotationsModelTest : public ::testing::Test {
+class AnnotationsModelTest : public test::TestedModel<AnnotationsModel> {
  protected:
-  AnnotationsModelTest() {
-    filter_.setSourceModel(&model_);
-    model_.setAnnotations(someAnnotations());
-  }
+  AnnotationsModelTest() { model_.setAnnotations(someAnnotations()); }
 
-  QString text(int row, int column) const { return model_.index(row, column).data().toString(); }
   bool edit(int row, int column, const QVariant& value, int role = Qt::EditRole) {
     return model_.setData(model_.index(row, column), value, role);
   }
-
-  AnnotationsModel model_;
-  RowsFilter filter_;
-  Tester model_tester_{&model_, Tester::FailureReportingMode::Fatal};
-  Tester filter_tester_{&filter_, Tester::FailureReportingMode::Fatal};
 };
 
-TEST_F(AnnotationsModelTest, HasARowPerAnnotationPointsFirst) {
+TEST_F(AnnotationsModelTest, HasARowPerAnnotationPointsFirst_WhichASolutionFills) {
   ASSERT_EQ(model_.rowCount(), 3);
   EXPECT_EQ(text(0, AnnotationsModel::kName), QStringLiteral("p1"));
   EXPECT_EQ(text(0, AnnotationsModel::kU_px), QStringLiteral("10.25"));
@@ -80,9 +71,6 @@ TEST_F(AnnotationsModelTest, HasARowPerAnnotationPointsFirst) {
   EXPECT_EQ(text(2, AnnotationsModel::kName), QStringLiteral("l1"));
   EXPECT_EQ(model_.rowOf("l1"), 2);
   EXPECT_EQ(model_.rowOf("none"), -1);
-}
-
-TEST_F(AnnotationsModelTest, Solution_FillsTheRowsOfItsAnnotations) {
   model_.setSolution(someSolution(model_.annotations()), false);
   EXPECT_EQ(text(0, AnnotationsModel::kResidualX_px), QStringLiteral("0.24"));
   EXPECT_EQ(text(0, AnnotationsModel::kWithout_mm), QStringLiteral("0.500"));
@@ -137,17 +125,11 @@ TEST_F(AnnotationsModelTest, InvalidValue_IsRefused) {
 
 TEST_F(AnnotationsModelTest, FiltersAndSorts) {
   model_.setSolution(someSolution(model_.annotations()), false);
-  const auto count = [&](AnnotationsModel::Show show) {
-    filter_.setCondition([this, show](int row) { return model_.isShown(row, show); });
-    return filter_.rowCount();
-  };
-  EXPECT_EQ(count(AnnotationsModel::Show::kAll), 3);
-  EXPECT_EQ(count(AnnotationsModel::Show::kUsed), 2);
-  EXPECT_EQ(count(AnnotationsModel::Show::kOff), 1);
-  EXPECT_EQ(count(AnnotationsModel::Show::kHalfMade), 1);
-  EXPECT_EQ(count(AnnotationsModel::Show::kStandOut), 1);
-  EXPECT_EQ(count(AnnotationsModel::Show::kLines), 1);
-  count(AnnotationsModel::Show::kAll);
+  using Show = AnnotationsModel::Show;
+  for (const auto& [show, count] :
+       {std::pair(Show::kUsed, 2), std::pair(Show::kOff, 1), std::pair(Show::kHalfMade, 1),
+        std::pair(Show::kStandOut, 1), std::pair(Show::kLines, 1), std::pair(Show::kAll, 3)})
+    EXPECT_EQ(countOf(show), count) << static_cast<int>(show);
   filter_.sort(AnnotationsModel::kNormalized, Qt::DescendingOrder);
   EXPECT_EQ(filter_.index(0, AnnotationsModel::kName).data().toString(), QStringLiteral("l1"));
   EXPECT_EQ(filter_.index(2, AnnotationsModel::kName).data().toString(), QStringLiteral("p2"));

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -20,17 +21,12 @@ namespace boresight::ui {
 namespace {
 
 TEST(RowsModels, EveryColumnSaysWhatItMeans) {
-  std::vector<std::unique_ptr<QAbstractItemModel>> models;
-  models.push_back(std::make_unique<AlternativesModel>());
-  models.push_back(std::make_unique<CasesModel>());
-  models.push_back(std::make_unique<ChecksModel>());
-  models.push_back(std::make_unique<DifferencesModel>());
-  models.push_back(std::make_unique<IterationsModel>());
-  models.push_back(std::make_unique<OptionsModel>());
-  models.push_back(std::make_unique<AnnotationsModel>());
-  models.push_back(std::make_unique<QueueModel>());
-  models.push_back(std::make_unique<TemplatesModel>());
-  for (const auto& model : models) {
+  const std::tuple<AlternativesModel, CasesModel, ChecksModel, DifferencesModel, IterationsModel,
+                   OptionsModel, AnnotationsModel, QueueModel, TemplatesModel>
+      models;
+  const auto list = std::apply(
+      [](const auto&... each) { return std::vector<const QAbstractItemModel*>{&each...}; }, models);
+  for (const QAbstractItemModel* model : list) {
     SCOPED_TRACE(model->metaObject()->className());
     EXPECT_GE(model->columnCount(), 3);
     for (int column = 0; column < model->columnCount(); ++column) {

@@ -10,34 +10,28 @@
 namespace boresight::ui {
 namespace {
 
-TEST(EmptyHint, ShowsWhileTheListIsEmpty) {
+struct EmptyHintTest : testing::Test {
+  EmptyHintTest() { view.setModel(&model); }
+
   QStringListModel model;
   QListView view;
-  view.setModel(&model);
+};
+
+TEST_F(EmptyHintTest, ShowsWhileTheListIsEmptyAndKeepsToTheViewport) {
   auto* hint = new EmptyHint(view);
+  view.resize(200, 100);
   view.show();
   EXPECT_TRUE(hint->isVisible());
+  view.resize(420, 310);
+  EXPECT_EQ(hint->size(), view.viewport()->size());
   model.setStringList({QStringLiteral("one")});
   EXPECT_FALSE(hint->isVisible());
   model.removeRows(0, 1);
   EXPECT_TRUE(hint->isVisible());
 }
 
-TEST(EmptyHint, KeepsToTheViewport) {
-  QStringListModel model;
-  QListView view;
-  view.setModel(&model);
-  auto* hint = new EmptyHint(view);
-  view.resize(200, 100);
-  view.show();
-  view.resize(420, 310);
-  EXPECT_EQ(hint->size(), view.viewport()->size());
-}
-
-TEST(EmptyHint, MayLeaveARowThatIsAlwaysThere) {
-  QStringListModel model({QStringLiteral("seed")});
-  QListView view;
-  view.setModel(&model);
+TEST_F(EmptyHintTest, MayLeaveARowThatIsAlwaysThere) {
+  model.setStringList({QStringLiteral("seed")});
   auto* hint = new EmptyHint(view, 1);
   view.show();
   EXPECT_TRUE(hint->isVisible());
@@ -74,13 +68,24 @@ TEST(TableRows, ATableEndsWithAWholeRow) {
   EXPECT_FALSE(cover->isVisible()) << "all rows are whole";
 }
 
-TEST(TableColumns, HiddenOnesAreRemembered) {
-  const test::TemporaryFolder folder;
-  const test::OwnSettings settings(folder.path());
-  QStandardItemModel model(2, 3);
+struct TableColumns : testing::Test {
+  TableColumns() { table.setObjectName(QStringLiteral("table")); }
+  /// A table of columns 100 px wide.
+  void fill(int columns) {
+    model.setColumnCount(columns);
+    model.setRowCount(3);
+    setUpTable(table, model);
+    for (int column = 0; column < columns; ++column) table.setColumnWidth(column, 100);
+  }
+
+  test::TemporaryFolder folder;
+  test::OwnSettings settings{folder.path()};
+  QStandardItemModel model;
   QTableView table;
-  table.setObjectName(QStringLiteral("rememberedTable"));
-  setUpTable(table, model);
+};
+
+TEST_F(TableColumns, HiddenOnesAreRemembered) {
+  fill(3);
   table.show();
   QTimer::singleShot(0, &table, [] {
     auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
@@ -99,18 +104,12 @@ TEST(TableColumns, HiddenOnesAreRemembered) {
   EXPECT_FALSE(again.isColumnHidden(2)) << "the operator's choice counts";
 }
 
-TEST(ColumnFitter, HidesWhatCanBeDoneWithoutUntilAllFitsAndBringsItBack) {
-  const test::TemporaryFolder folder;
-  const test::OwnSettings settings(folder.path());
-  QStandardItemModel model(3, 5);
-  QTableView table;
-  table.setObjectName(QStringLiteral("fittedTable"));
-  setUpTable(table, model);
-  for (int column = 0; column < 5; ++column) table.setColumnWidth(column, 100);
+TEST_F(TableColumns, Fitter_HidesWhatCanBeDoneWithoutUntilAllFitsAndBringsItBack) {
+  fill(5);
   new ColumnFitter(table, {4, 2, 3});
   table.resize(600, 200);
   table.show();
-  const auto hidden = [&table] {
+  const auto hidden = [this] {
     std::vector<int> columns;
     for (int column = 0; column < 5; ++column)
       if (table.isColumnHidden(column)) columns.push_back(column);
@@ -129,14 +128,8 @@ TEST(ColumnFitter, HidesWhatCanBeDoneWithoutUntilAllFitsAndBringsItBack) {
   EXPECT_EQ(table.columnWidth(4), 100);
 }
 
-TEST(ColumnFitter, CountsOfTheStretchedLastColumnWhatItNeeds) {
-  const test::TemporaryFolder folder;
-  const test::OwnSettings settings(folder.path());
-  QStandardItemModel model(3, 3);
-  QTableView table;
-  table.setObjectName(QStringLiteral("stretchedTable"));
-  setUpTable(table, model);
-  for (int column = 0; column < 3; ++column) table.setColumnWidth(column, 100);
+TEST_F(TableColumns, Fitter_CountsOfTheStretchedLastColumnWhatItNeeds) {
+  fill(3);
   table.horizontalHeader()->setStretchLastSection(true);
   new ColumnFitter(table, {1});
   table.resize(600, 200);
@@ -148,27 +141,20 @@ TEST(ColumnFitter, CountsOfTheStretchedLastColumnWhatItNeeds) {
   EXPECT_FALSE(table.isColumnHidden(1));
 }
 
-TEST(Banner, HidesWithoutWarnings) {
-  QWidget window;
-  Banner banner(&window);
-  window.show();
-  banner.showWarnings({QStringLiteral("the mesh is 1000 times too big")});
-  EXPECT_TRUE(banner.isVisible());
-  banner.showWarnings({});
-  EXPECT_FALSE(banner.isVisible());
-}
-
-TEST(Banner, CountsTheWarningsThatItDoesNotShow) {
+TEST(Banner, CountsTheWarningsThatItDoesNotShowAndHidesWithoutAny) {
   Banner banner;
   banner.setAction(QStringLiteral("Inputs"), QStringLiteral("Show them"));
   banner.showWarnings(
       {QStringLiteral("a"), QStringLiteral("b"), QStringLiteral("c"), QStringLiteral("d")});
+  EXPECT_TRUE(banner.isVisible());
   EXPECT_EQ(banner.text(), QStringLiteral("a\nb\nand 2 more"));
   EXPECT_EQ(banner.findChild<QLabel*>()->text(), QString::fromUtf8("⚠"))
       << "a sign in addition to the colour";
   QSignalSpy asked(&banner, &Banner::actionRequested);
   QTest::mouseClick(banner.findChild<QToolButton*>(), Qt::LeftButton);
   EXPECT_EQ(asked.count(), 1);
+  banner.showWarnings({});
+  EXPECT_FALSE(banner.isVisible());
 }
 
 }  // namespace

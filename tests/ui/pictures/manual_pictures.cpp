@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <QtWidgets>
@@ -71,6 +71,15 @@ QRect middleOf(const Camera& camera) {
   return {(camera.width - side) / 2, (camera.height - side) / 2, side, side};
 }
 
+/// A picture by the colour of each of its pixels.
+template <class Color>
+QImage painted(int width, int height, const Color& color_of) {
+  QImage image(width, height, QImage::Format_RGB32);
+  for (int i = 0; i < width * height; ++i)
+    image.setPixel(i % width, i / width, color_of(static_cast<std::size_t>(i)));
+  return image;
+}
+
 QImage depthImage(const std::vector<float>& depth_m, int width, int height) {
   float nearest = 1e9F;
   float farthest = 0.0F;
@@ -79,25 +88,19 @@ QImage depthImage(const std::vector<float>& depth_m, int width, int height) {
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
   }
-  QImage image(width, height, QImage::Format_RGB32);
-  for (int i = 0; i < width * height; ++i) {
-    const float depth = depth_m[static_cast<std::size_t>(i)];
-    const float share = (depth - nearest) / std::max(1e-6F, farthest - nearest);
-    const int gray = depth <= 0.0F ? 0 : static_cast<int>(255.0F - 200.0F * share);
-    image.setPixel(i % width, i / width, qRgb(gray, gray, gray));
-  }
-  return image;
+  return painted(width, height, [&](std::size_t i) {
+    const float share = (depth_m[i] - nearest) / std::max(1e-6F, farthest - nearest);
+    const int gray = depth_m[i] <= 0.0F ? 0 : static_cast<int>(255.0F - 200.0F * share);
+    return qRgb(gray, gray, gray);
+  });
 }
 
 QImage normalImage(const std::vector<Eigen::Vector3f>& normal, int width, int height) {
-  QImage image(width, height, QImage::Format_RGB32);
-  for (int i = 0; i < width * height; ++i) {
-    const Eigen::Vector3f& n = normal[static_cast<std::size_t>(i)];
-    const auto part = [](float value) { return static_cast<int>(127.5F + 127.5F * value); };
-    image.setPixel(i % width, i / width,
-                   n.isZero() ? qRgb(0, 0, 0) : qRgb(part(n.x()), part(-n.y()), part(-n.z())));
-  }
-  return image;
+  const auto part = [](float value) { return static_cast<int>(127.5F + 127.5F * value); };
+  return painted(width, height, [&](std::size_t i) {
+    const Eigen::Vector3f& n = normal[i];
+    return n.isZero() ? qRgb(0, 0, 0) : qRgb(part(n.x()), part(-n.y()), part(-n.z()));
+  });
 }
 
 QImage bitsImage(const sessions::BitMap& bits) {
@@ -184,18 +187,18 @@ class Stage {
   void run() {
     if (!window_.state().snapshot()) window_.cases().advance(sessions::StepUntil::kEnd);
     rest();
-    window_.image().view().fit();
+    fit();
   }
-  QDockWidget& front(const char* name) {
+  QDockWidget& front(const char* name, int height_px = 0) {
     QDockWidget* dock = window_.dock(QLatin1String(name));
     window_.workspaces().reveal(QLatin1String(name));
     rest();
+    if (height_px > 0) height(name, height_px);
     return *dock;
   }
+  void fit() { window_.image().view().fit(); }
   void iteration(int index) {
-    RunCursor cursor;
-    cursor.iteration = index;
-    window_.state().setCursor(cursor);
+    window_.state().setCursor({.iteration = index});
     rest();
   }
   void layer(LayerId id, bool visible) {
@@ -239,7 +242,7 @@ void drawOnboard(const Places& places) {
   stage.front("onboard");
   stage.window().onboard().showOnboard();
   stage.rest();
-  stage.window().image().view().fit();
+  stage.fit();
   places.save(stage.window(), "onboard");
 }
 
@@ -261,7 +264,7 @@ void drawStatedRun(const Places& places) {
   stage.front("hypotheses");
   stage.window().findChild<HypothesesPanel*>()->choose(0);
   stage.rest();
-  stage.window().image().view().fit();
+  stage.fit();
   places.save(stage.window(), "stated_run");
 }
 
@@ -279,18 +282,16 @@ void drawAnnotation(const Places& places) {
 
 void drawQueue(const Places& places) {
   Stage stage(places.sessions / "batch.boresight.json");
-  stage.front("queue");
-  stage.height("queue", 380);
-  stage.window().image().view().fit();
+  stage.front("queue", 380);
+  stage.fit();
   places.save(stage.window(), "queue");
 }
 
 void drawReview(const Places& places) {
   Stage stage(places.sessions / "example.boresight.json");
   stage.run();
-  stage.front("review");
-  stage.height("review", 420);
-  stage.window().image().view().fit();
+  stage.front("review", 420);
+  stage.fit();
   places.save(stage.window(), "review");
 }
 
@@ -322,14 +323,12 @@ void drawStages(const Places& places) {
   stage.window().dock(QStringLiteral("layers"))->hide();
   stage.window().resize(1260, 990);
   stage.rest();
-  stage.window().image().view().fit();
+  stage.fit();
   stage.rest();
   places.save(stage.window().image().view(), "stage_matches");
   const ViewState& state = stage.window().state();
   stage.window().state().selectTemplate(bestInlier(*state.snapshot(), *state.iteration()));
-  stage.front("inspector");
-  stage.height("inspector", 420);
-  places.save(*stage.front("inspector").widget(), "stage_score_map");
+  places.save(*stage.front("inspector", 420).widget(), "stage_score_map");
 }
 
 void drawManual(const Places& places) {
@@ -340,23 +339,17 @@ void drawManual(const Places& places) {
   places.save(manual, "manual");
 }
 
-struct NamedPicture {
-  const char* name;
-  std::function<void(const Places&)> draw;
-};
-
-int makePictures(const Places& places, const QStringList& wanted) {
-  const std::vector<NamedPicture> all = {
+void makePictures(const Places& places, const QStringList& wanted) {
+  const std::pair<const char*, void (*)(const Places&)> all[] = {
       {"window", drawWindow},        {"onboard", drawOnboard},       {"failed_run", drawFailedRun},
       {"stated_run", drawStatedRun}, {"annotation", drawAnnotation}, {"queue", drawQueue},
       {"review", drawReview},        {"stages", drawStages},         {"manual", drawManual}};
-  for (const NamedPicture& each : all) {
-    if (!wanted.isEmpty() && !wanted.contains(QLatin1String(each.name))) continue;
-    std::printf("%s\n", each.name);
+  for (const auto& [name, draw] : all) {
+    if (!wanted.isEmpty() && !wanted.contains(QLatin1String(name))) continue;
+    std::printf("%s\n", name);
     std::fflush(stdout);
-    each.draw(places);
+    draw(places);
   }
-  return 0;
 }
 
 }  // namespace
@@ -373,8 +366,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return boresight::ui::makePictures({arguments[1].toStdString(), arguments[2].toStdString()},
-                                       arguments.mid(3));
+    boresight::ui::makePictures({arguments[1].toStdString(), arguments[2].toStdString()},
+                                arguments.mid(3));
+    return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "manual_pictures: %s\n", error.what());
     return 1;

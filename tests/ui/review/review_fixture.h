@@ -4,8 +4,19 @@
 #include "tests/ui/patience.h"
 #include "tests/ui/window_test.h"
 #include "ui/review/review_panel.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::test {
+
+inline QString textAt(const QAbstractItemView& table, int row, int column) {
+  return table.model()->index(row, column).data().toString();
+}
+/// The first row whose cell has a text in it; -1 where there is none.
+inline int rowWith(const QAbstractItemView& table, int column, const QString& text) {
+  for (int row = 0; row < table.model()->rowCount(); ++row)
+    if (textAt(table, row, column).contains(text)) return row;
+  return -1;
+}
 
 /// What a reviewer does with the panel, by its widgets.
 class ReviewHands {
@@ -16,10 +27,8 @@ class ReviewHands {
     return panel_.findChild<QPushButton*>(QLatin1String(name));
   }
   QTableView& table() const { return *panel_.findChild<QTableView*>(QStringLiteral("checks")); }
-  QString labelled(const char* name) const {
-    const auto* label = panel_.findChild<QLabel*>(QLatin1String(name));
-    return label ? label->text() : QString();
-  }
+  QString hint() const { return panel_.findChild<QLabel*>(QStringLiteral("emptyHint"))->text(); }
+  QString banner() const { return panel_.findChild<ui::Banner*>()->text(); }
   void type(const char* name, const QString& text) const {
     auto* field = panel_.findChild<QLineEdit*>(QLatin1String(name));
     ASSERT_NE(field, nullptr) << name;
@@ -33,23 +42,7 @@ class ReviewHands {
     type("decisionComment", comment);
   }
   void click(const char* name) const { QTest::mouseClick(button(name), Qt::LeftButton); }
-  /// The row of a check by its sign and title; -1 where there is none.
-  int rowOf(const QString& words) const {
-    const QAbstractItemModel& model = *table().model();
-    for (int row = 0; row < model.rowCount(); ++row)
-      if (model.index(row, ui::ChecksModel::kCheck).data().toString().contains(words)) return row;
-    return -1;
-  }
-  int failedCount() const {
-    int count = 0;
-    const QAbstractItemModel& model = *table().model();
-    for (int row = 0; row < model.rowCount(); ++row)
-      count += model.index(row, ui::ChecksModel::kCheck)
-                   .data()
-                   .toString()
-                   .startsWith(QString::fromUtf8("✗"));
-    return count;
-  }
+  int rowOf(const QString& check) const { return rowWith(table(), ui::ChecksModel::kCheck, check); }
   /// Types into a cell as a person does who goes there with the keys.
   static void typeInto(QTableView& table, int row, int column, const QString& text) {
     table.setFocus();
@@ -72,6 +65,11 @@ class ReviewHands {
       QTest::keyClicks(field, reason);
       QTest::keyClick(field, Qt::Key_Return);
     }
+  }
+  void validateAs(const QString& name) const {
+    passOverAll(QStringLiteral("known"));
+    sign(name, QStringLiteral("looked at it"));
+    click("validate");
   }
 
  private:

@@ -66,22 +66,19 @@ class ReviewPanelTest : public ::testing::Test {
   }
   ReviewController& controller() { return panel_->controller(); }
   test::ReviewHands hands() { return test::ReviewHands(*panel_); }
+  bool enabled(const char* button) { return hands().button(button)->isEnabled(); }
   ReviewState reviewState() { return controller().reviewStatus().state; }
-  QString banner() { return panel_->findChild<Banner*>()->text(); }
   QString obstacle() { return panel_->findChild<DecisionForm*>()->obstacle(); }
   QString history() { return panel_->findChild<QTextBrowser*>()->toPlainText(); }
+  int count(CheckState state) { return countOf(controller().checks(), state); }
 
-  /// A limit that nothing keeps to.
-  void askTooMuch() {
+  /// Thousands are a limit that nothing keeps to.
+  void requireInliers(double count) {
     sessions::CheckLimits limits = sessions::checkLimits(controller().settings().preset, {});
-    limits.inlier_count = 10000.0;
+    limits.inlier_count = count;
     controller().setLimits(limits);
     ASSERT_TRUE(checked());
-  }
-  void validateAs(const QString& name) {
-    hands().passOverAll(QStringLiteral("known"));
-    hands().sign(name, QStringLiteral("looked at it"));
-    hands().click("validate");
+    QCoreApplication::processEvents();  // new cards come into sight
   }
 
   test::TemporaryFolder folder_;
@@ -91,92 +88,67 @@ class ReviewPanelTest : public ::testing::Test {
   std::unique_ptr<ReviewPanel> panel_;
 };
 
-TEST_F(ReviewPanelTest, WithoutSession_ReportsIt) {
+TEST_F(ReviewPanelTest, WithoutAPose_SaysWhatToDo) {
   EXPECT_EQ(hands().table().model()->rowCount(), 0);
-  EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "No session"));
-  EXPECT_FALSE(hands().button("validate")->isEnabled());
-}
-
-TEST_F(ReviewPanelTest, ACaseWithoutAPoseSaysWhatToDo) {
+  EXPECT_TRUE(test::has(hands().hint(), "No session"));
+  EXPECT_FALSE(enabled("validate"));
   open(exampleSession());
-  EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "F5"));
+  EXPECT_TRUE(test::has(hands().hint(), "F5"));
   EXPECT_TRUE(test::has(obstacle(), "run it"));
   hands().sign(QStringLiteral("Ada"), QStringLiteral("no reason"));
-  EXPECT_FALSE(hands().button("validate")->isEnabled());
-  EXPECT_TRUE(hands().button("reject")->isEnabled()) << "an image can be refused as it is";
-}
-
-TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
-  openRun();
-  const auto& checks = controller().checks();
-  ASSERT_EQ(hands().table().model()->rowCount(), static_cast<int>(checks.size()));
-  for (const sessions::Check& check : checks) {
-    const int row = hands().rowOf(fromText(check.title));
-    ASSERT_GE(row, 0) << check.title;
-    const QString text = hands().table().model()->index(row, ChecksModel::kCheck).data().toString();
-    EXPECT_TRUE(text.startsWith(ChecksModel::sign(check.state))) << text.toStdString();
-    EXPECT_EQ(hands().table().model()->index(row, ChecksModel::kFound).data().toString(),
-              fromText(sessions::foundText(check)));
-  }
-  EXPECT_TRUE(test::has(banner(), "NOT VALIDATED"));
-}
-
-/// Where nothing failed, the measure of the pose leads.
-TEST_F(ReviewPanelTest, PrecisionIsShownUnlessACheckFailed) {
-  openRun();
-  const auto* bars = panel_->findChild<PrecisionBars*>();
-  EXPECT_EQ(bars->isVisible(), countOf(controller().checks(), CheckState::kFailed) == 0);
-  askTooMuch();
-  EXPECT_FALSE(bars->isVisible());
+  EXPECT_FALSE(enabled("validate"));
+  EXPECT_TRUE(enabled("reject")) << "an image can be refused as it is";
 }
 
 TEST_F(ReviewPanelTest, FailedChecksAreCards_OthersFoldToALine) {
   openRun();
-  askTooMuch();
-  const auto shown = [this](CheckState state) {
-    int count = 0;
-    for (const sessions::Check& check : controller().checks())
-      count += check.state == state && hands().table().isVisible() &&
-               !hands().table().isRowHidden(hands().rowOf(fromText(check.title)));
-    return count;
+  const auto* bars = panel_->findChild<PrecisionBars*>();
+  EXPECT_EQ(bars->isVisible(), count(CheckState::kFailed) == 0)
+      << "where nothing failed, the measure of the pose leads";
+  EXPECT_TRUE(test::has(hands().banner(), "NOT VALIDATED"));
+  requireInliers(10000.0);
+  EXPECT_FALSE(bars->isVisible());
+
+  const auto& checks = controller().checks();
+  const QTableView& table = hands().table();
+  const auto* cards = panel_->findChild<CheckCards*>();
+  EXPECT_EQ(cards->findChildren<QLineEdit*>().size(), count(CheckState::kFailed));
+  QStringList texts;
+  for (const QLabel* label : cards->findChildren<QLabel*>()) texts << label->text();
+  ASSERT_EQ(table.model()->rowCount(), static_cast<int>(checks.size()));
+  for (const sessions::Check& check : checks) {
+    const int row = hands().rowOf(fromText(check.title));
+    ASSERT_GE(row, 0) << check.title;
+    const QString text = test::textAt(table, row, ChecksModel::kCheck);
+    EXPECT_TRUE(text.startsWith(ChecksModel::sign(check.state))) << text.toStdString();
+    EXPECT_EQ(test::textAt(table, row, ChecksModel::kFound), fromText(sessions::foundText(check)));
+    const bool card =
+        texts.contains(fromText(check.sentence)) && texts.contains(foundAndLimit(check));
+    EXPECT_TRUE(card || check.state != CheckState::kFailed) << check.title;
+  }
+
+  const auto shown = [&](CheckState state) {
+    return std::ranges::count_if(checks, [&](const sessions::Check& check) {
+      return check.state == state && table.isVisible() &&
+             !table.isRowHidden(hands().rowOf(fromText(check.title)));
+    });
   };
-  const auto all = [this](CheckState state) { return countOf(controller().checks(), state); };
   const auto click = [this](const char* name) {
     auto* fold = panel_->findChild<FoldButton*>(QLatin1String(name));
     QTest::mouseClick(fold, Qt::LeftButton);
     return fold->text();
   };
-  const auto* cards = panel_->findChild<CheckCards*>();
-  EXPECT_EQ(cards->findChildren<QLineEdit*>().size(), all(CheckState::kFailed));
-  QStringList texts;
-  for (const QLabel* label : cards->findChildren<QLabel*>()) texts << label->text();
-  for (const sessions::Check& check : controller().checks())
-    if (check.state == CheckState::kFailed) {
-      EXPECT_TRUE(texts.contains(fromText(check.sentence)) && texts.contains(foundAndLimit(check)));
-    }
-  EXPECT_FALSE(hands().table().isVisible()) << "at first";
-  EXPECT_EQ(click("passedFold"), QStringLiteral("%1 passed").arg(all(CheckState::kPassed)));
-  EXPECT_EQ(shown(CheckState::kPassed), all(CheckState::kPassed));
+  EXPECT_FALSE(table.isVisible()) << "at first";
+  EXPECT_EQ(click("passedFold"), QStringLiteral("%1 passed").arg(count(CheckState::kPassed)));
+  EXPECT_EQ(shown(CheckState::kPassed), count(CheckState::kPassed));
   EXPECT_EQ(shown(CheckState::kNotApplicable), 0);
   EXPECT_EQ(shown(CheckState::kFailed), 0) << "they are cards";
-  ASSERT_GT(all(CheckState::kNotApplicable), 0);
+  ASSERT_GT(count(CheckState::kNotApplicable), 0);
   click("notApplicableFold");
-  EXPECT_EQ(shown(CheckState::kNotApplicable), all(CheckState::kNotApplicable));
+  EXPECT_EQ(shown(CheckState::kNotApplicable), count(CheckState::kNotApplicable));
   const ReviewPanel next(document_, state_);
   EXPECT_FALSE(next.findChild<FoldButton*>(QStringLiteral("notApplicableFold"))->isFolded())
       << "as it was left";
-}
-
-/// Other checks may change while the operator types.
-TEST_F(ReviewPanelTest, ReasonThatIsBeingTyped_StaysWhileItsCheckIsTheSame) {
-  openRun();
-  askTooMuch();
-  auto* reason = panel_->findChild<QLineEdit*>(QStringLiteral("waiver"));
-  reason->setFocus();
-  QTest::keyClicks(reason, QStringLiteral("half a rea"));
-  Q_EMIT controller().checksChanged();
-  EXPECT_EQ(reason->text(), QStringLiteral("half a rea"));
-  EXPECT_EQ(panel_->findChild<QLineEdit*>(QStringLiteral("waiver")), reason);
 }
 
 TEST_F(ReviewPanelTest, HiddenPanel_ChecksNothing) {
@@ -189,56 +161,68 @@ TEST_F(ReviewPanelTest, HiddenPanel_ChecksNothing) {
   EXPECT_FALSE(controller().checks().empty());
 }
 
-TEST_F(ReviewPanelTest, AFailedCheckBlocksUntilAReasonIsTyped) {
+TEST_F(ReviewPanelTest, Validation_NeedsANameACommentAndAReasonForEveryFailedCheck) {
   openRun();
-  askTooMuch();
-  hands().sign(QStringLiteral("Ada"), QStringLiteral("looked at it"));
-  ASSERT_GT(hands().failedCount(), 0);
-  EXPECT_FALSE(hands().button("validate")->isEnabled());
+  hands().passOverAll(QStringLiteral("known"));
+  EXPECT_FALSE(enabled("validate"));
+  EXPECT_TRUE(test::has(obstacle(), "name"));
+  hands().type("decisionName", QStringLiteral("Ada"));
+  EXPECT_TRUE(test::has(obstacle(), "comment"));
+  hands().type("decisionComment", QStringLiteral("looked at it"));
+  EXPECT_TRUE(enabled("validate"));
+  EXPECT_TRUE(obstacle().isEmpty());
+
+  requireInliers(10000.0);
+  ASSERT_GT(count(CheckState::kFailed), 0);
+  EXPECT_FALSE(enabled("validate"));
   EXPECT_TRUE(test::has(obstacle(), "Inliers"));
+  std::string shown;
+  QObject::connect(panel_.get(), &ReviewPanel::checkShowRequested, panel_.get(),
+                   [&shown](const std::string& id) { shown = id; });
+  panel_->findChild<QPushButton*>(QStringLiteral("showCheck"))->click();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(shown, "inlier_count");
+  auto* reason = panel_->findChild<QLineEdit*>(QStringLiteral("waiver"));
+  reason->setFocus();
+  reason->clear();
+  QTest::keyClicks(reason, QStringLiteral("half a rea"));
+  Q_EMIT controller().checksChanged();  // others may change while the operator types
+  EXPECT_EQ(reason->text(), QStringLiteral("half a rea"));
+  EXPECT_EQ(panel_->findChild<QLineEdit*>(QStringLiteral("waiver")), reason);
   hands().passOverAll(QStringLiteral("   "));
-  EXPECT_FALSE(hands().button("validate")->isEnabled()) << "blanks are no reason";
+  EXPECT_FALSE(enabled("validate")) << "blanks are no reason";
+  hands().passOverAll(QStringLiteral("known"));
+  EXPECT_TRUE(enabled("validate")) << obstacle().toStdString();
+  requireInliers(9999.0);
+  EXPECT_FALSE(enabled("validate")) << "a reason holds for its figure alone";
   hands().passOverAll(QStringLiteral("a small station"));
-  ASSERT_TRUE(hands().button("validate")->isEnabled()) << obstacle().toStdString();
+  ASSERT_TRUE(enabled("validate")) << obstacle().toStdString();
   hands().click("validate");
   EXPECT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_TRUE(test::has(history(), "a small station"));
 }
 
-TEST_F(ReviewPanelTest, AReasonHoldsForItsFigureAlone) {
+TEST_F(ReviewPanelTest, ADecisionCanBeTakenBackOrUndone_AndOnlyItsNameStaysInTheForm) {
   openRun();
-  askTooMuch();
-  hands().passOverAll(QStringLiteral("known"));
-  sessions::CheckLimits limits;
-  limits.inlier_count = 9999.0;
-  controller().setLimits(limits);
-  ASSERT_TRUE(checked());
-  hands().sign(QStringLiteral("Ada"), QStringLiteral("looked at it"));
-  EXPECT_FALSE(hands().button("validate")->isEnabled());
-}
+  EXPECT_FALSE(enabled("takeBack"));
+  hands().sign(QStringLiteral("Ada"), QStringLiteral("the gripper hides it"));
+  hands().click("reject");
+  EXPECT_EQ(reviewState(), ReviewState::kRejected);
+  EXPECT_TRUE(test::has(hands().banner(), "rejected by Ada"));
+  hands().sign(QStringLiteral("Grace"), QStringLiteral("it does not"));
+  hands().click("takeBack");
+  EXPECT_EQ(reviewState(), ReviewState::kConverged);
+  EXPECT_TRUE(test::has(history(), "the gripper hides it"));
+  EXPECT_TRUE(test::has(history(), "Withdrawn by Grace")) << "the newest first";
 
-TEST_F(ReviewPanelTest, NeedsANameAndAComment) {
-  openRun();
-  hands().passOverAll(QStringLiteral("known"));
-  EXPECT_FALSE(hands().button("validate")->isEnabled());
-  EXPECT_TRUE(test::has(obstacle(), "name"));
-  hands().type("decisionName", QStringLiteral("Ada"));
-  EXPECT_TRUE(test::has(obstacle(), "comment"));
-  hands().type("decisionComment", QStringLiteral("looked at it"));
-  EXPECT_TRUE(hands().button("validate")->isEnabled());
-  EXPECT_TRUE(obstacle().isEmpty());
-}
-
-TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack_AndOnlyItsNameStaysInTheForm) {
-  openRun();
-  validateAs(QStringLiteral("Ada"));
+  hands().validateAs(QStringLiteral("Ada"));
   ASSERT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_EQ(document_.undoText(), QStringLiteral("Validate %1").arg(fromText(firstCase())));
-  EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
-  EXPECT_FALSE(hands().button("validate")->isEnabled()) << "said once";
+  EXPECT_TRUE(test::has(hands().banner(), "Validated by Ada"));
+  EXPECT_FALSE(enabled("validate")) << "said once";
   ASSERT_TRUE(document_.undo());
   EXPECT_EQ(reviewState(), ReviewState::kConverged);
-  EXPECT_TRUE(document_.session().decisions.empty());
+  EXPECT_EQ(document_.session().decisions.size(), 2u);
   EXPECT_FALSE(history().contains(QStringLiteral("Validated by Ada")));
   ASSERT_TRUE(document_.redo());
   EXPECT_EQ(reviewState(), ReviewState::kValidated);
@@ -253,68 +237,46 @@ TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack_AndOnlyItsNameStaysI
   EXPECT_EQ(text("decisionName"), QString()) << "another session is another reviewer's";
 }
 
-TEST_F(ReviewPanelTest, ButtonsAreWholeInASidePane) {
-  openRun();
-  const auto expectWhole = [this](std::initializer_list<const char*> shown) {
+TEST_F(ReviewPanelTest, Approval_NeedsAnotherPerson_AndButtonsAreWholeInASidePane) {
+  const auto visible = [this] {
+    QApplication::processEvents();
+    std::vector<std::string> names;
     for (const char* name : {"validate", "validateNext", "approve", "reject", "takeBack"}) {
       const QPushButton* button = hands().button(name);
-      const bool expected = std::find_if(shown.begin(), shown.end(), [name](const char* each) {
-                              return std::string(each) == name;
-                            }) != shown.end();
-      EXPECT_EQ(button->isVisible(), expected) << name;
-      if (!expected) continue;
+      if (!button->isVisible()) continue;
+      names.emplace_back(name);
       EXPECT_GE(button->width(), button->sizeHint().width()) << name;
     }
+    return names;
   };
+  openRun();
   panel_->resize(kNarrow.review_side, 600);
-  QApplication::processEvents();
-  expectWhole({"validate", "validateNext", "reject"});
+  EXPECT_THAT(visible(), testing::ElementsAre("validate", "validateNext", "reject"));
   document_.edit(sessions::withoutCase(document_.session(), exampleSession().cases[1]->id),
                  QStringLiteral("Remove"));
-  expectWhole({"validate", "reject"});
+  EXPECT_THAT(visible(), testing::ElementsAre("validate", "reject"));
   ASSERT_TRUE(document_.undo());
   controller().setSecondPerson(true);
-  validateAs(QStringLiteral("Ada"));
-  QApplication::processEvents();
-  expectWhole({"validate", "approve", "reject", "takeBack"});
-}
+  hands().validateAs(QStringLiteral("Ada"));
+  EXPECT_THAT(visible(), testing::ElementsAre("validate", "approve", "reject", "takeBack"));
 
-TEST_F(ReviewPanelTest, Approval_NeedsAnotherPerson) {
-  openRun();
-  controller().setSecondPerson(true);
-  validateAs(QStringLiteral("Ada"));
   EXPECT_EQ(reviewState(), ReviewState::kConverged) << "not yet validated";
-  EXPECT_TRUE(test::has(banner(), "second person"));
+  EXPECT_TRUE(test::has(hands().banner(), "second person"));
   hands().sign(QStringLiteral(" aDa "), QStringLiteral("me again"));
-  EXPECT_FALSE(hands().button("approve")->isEnabled());
-  EXPECT_FALSE(hands().button("validate")->isEnabled()) << "it would replace the first one";
+  EXPECT_FALSE(enabled("approve"));
+  EXPECT_FALSE(enabled("validate")) << "it would replace the first one";
   EXPECT_TRUE(test::has(obstacle(), "another person"));
   hands().type("decisionName", QStringLiteral("Grace"));
-  ASSERT_TRUE(hands().button("approve")->isEnabled()) << obstacle().toStdString();
+  ASSERT_TRUE(enabled("approve")) << obstacle().toStdString();
   hands().click("approve");
   EXPECT_EQ(reviewState(), ReviewState::kValidated);
-  EXPECT_TRUE(test::has(banner(), "approved by Grace"));
-}
-
-TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
-  openRun();
-  EXPECT_FALSE(hands().button("takeBack")->isEnabled());
-  hands().sign(QStringLiteral("Ada"), QStringLiteral("the gripper hides it"));
-  hands().click("reject");
-  EXPECT_EQ(reviewState(), ReviewState::kRejected);
-  EXPECT_TRUE(test::has(banner(), "rejected by Ada"));
-  hands().sign(QStringLiteral("Grace"), QStringLiteral("it does not"));
-  hands().click("takeBack");
-  EXPECT_EQ(reviewState(), ReviewState::kConverged);
-  EXPECT_TRUE(test::has(history(), "the gripper hides it"));
-  EXPECT_TRUE(history().contains(QStringLiteral("Withdrawn by Grace"))) << "the newest first";
+  EXPECT_TRUE(test::has(hands().banner(), "approved by Grace"));
 }
 
 TEST_F(ReviewPanelTest, AnnotatedPose_CanBeJudgedAndItsChangeIsReported) {
-  sessions::Session session = test::withRunOfSeed(exampleSession(), file());
   const std::string id = firstCase();
-  session = withAnnotations(session, id, *test::annotatedExample(0.2).annotations.at(id));
-  open(session);
+  open(withAnnotations(test::withRunOfSeed(exampleSession(), file()), id,
+                       *test::annotatedExample(0.2).annotations.at(id)));
   ASSERT_TRUE(checked());
   auto* judged = panel_->findChild<QComboBox*>(QStringLiteral("judged"));
   ASSERT_EQ(judged->count(), 2);
@@ -324,13 +286,13 @@ TEST_F(ReviewPanelTest, AnnotatedPose_CanBeJudgedAndItsChangeIsReported) {
   EXPECT_EQ(controller().source(), sessions::PoseSource::kAnnotation);
   EXPECT_FALSE(controller().isCurrent()) << "stale at once";
   ASSERT_TRUE(checked());
-  validateAs(QStringLiteral("Ada"));
+  hands().validateAs(QStringLiteral("Ada"));
   ASSERT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_EQ(controller().reviewStatus().decision->pose->source, sessions::PoseSource::kAnnotation);
   sessions::Annotations moved = *document_.session().annotations.at(id);
   moved.points[0].pixel->x() += 0.3;
   document_.edit(withAnnotations(document_.session(), id, moved), QStringLiteral("Move"));
-  EXPECT_TRUE(test::has(banner(), "the annotations have changed"));
+  EXPECT_TRUE(test::has(hands().banner(), "the annotations have changed"));
   EXPECT_FALSE(controller().isCurrent());
 }
 
@@ -340,24 +302,17 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   auto* dialog = panel_->findChild<LimitsDialog*>();
   ASSERT_NE(dialog, nullptr);
   auto* preset = dialog->findChild<QComboBox*>(QStringLiteral("preset"));
-  ASSERT_NE(preset, nullptr);
   preset->setFocus();
   QTest::keyClick(preset, Qt::Key_Down);
   EXPECT_EQ(document_.session().review.preset, sessions::checkPresets()[1].name);
   ASSERT_TRUE(document_.undo());
   EXPECT_EQ(preset->currentText(), QLatin1String(sessions::kDefaultCheckPreset));
   auto* table = dialog->findChild<QTableView*>(QStringLiteral("limits"));
-  int row = 0;
-  while (!table->model()
-              ->index(row, OptionsModel::kName)
-              .data()
-              .toString()
-              .contains(QStringLiteral("inlier_count")))
-    ASSERT_LT(++row, table->model()->rowCount());
+  const int row = test::rowWith(*table, OptionsModel::kName, QStringLiteral("inlier_count"));
+  ASSERT_GE(row, 0);
   test::ReviewHands::typeInto(*table, row, OptionsModel::kValue, QStringLiteral("-5"));
-  EXPECT_TRUE(dialog->findChild<QLabel*>(QStringLiteral("limitHelp"))
-                  ->text()
-                  .contains(QStringLiteral("Not changed")));
+  EXPECT_TRUE(
+      test::has(dialog->findChild<QLabel*>(QStringLiteral("limitHelp"))->text(), "Not changed"));
   EXPECT_TRUE(document_.session().review.limits.empty());
   test::ReviewHands::typeInto(*table, row, OptionsModel::kValue, QStringLiteral("9000"));
   ASSERT_EQ(document_.session().review.limits.size(), 1u);
@@ -365,7 +320,7 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   ASSERT_TRUE(checked());
   const int checked_row = hands().rowOf(QString::fromUtf8("✗ Inliers"));
   ASSERT_GE(checked_row, 0);
-  EXPECT_EQ(hands().table().model()->index(checked_row, ChecksModel::kLimit).data().toString(),
+  EXPECT_EQ(test::textAt(hands().table(), checked_row, ChecksModel::kLimit),
             QString::fromUtf8("≥ 9000"));
   QTest::mouseClick(dialog->findChild<QCheckBox*>(QStringLiteral("secondPerson")), Qt::LeftButton,
                     Qt::NoModifier, QPoint(8, 8));
@@ -411,55 +366,39 @@ TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
   EXPECT_FALSE(controller.decide(ReviewController::Act::kReject, {"Ada", "no"}));
 }
 
-/// Exports of the judged pose, and what is said of them.
-class PoseExportTest : public ReviewPanelTest {
- protected:
-  PoseExportTest() {
-    openRun();
-    QObject::connect(&exporter_, &PoseExport::noted, panel_.get(),
-                     [this](const QString& text) { said_ = text; });
-    QObject::connect(&exports_, &ExportRunner::failed, panel_.get(),
-                     [this](const QString& text) { said_ = text; });
-  }
-  bool rests() {
-    return QTest::qWaitFor([this] { return !exports_.isBusy(); }, kPatienceMs);
-  }
+TEST_F(ReviewPanelTest, Exports_AreLabelledUnlessValidated) {
+  openRun();
+  ExportRunner exports;
+  PoseExport exporter(*panel_, document_, state_, exports);
+  QString said;
+  const auto hear = [&said](const QString& text) { said = text; };
+  QObject::connect(&exporter, &PoseExport::noted, panel_.get(), hear);
+  QObject::connect(&exports, &ExportRunner::failed, panel_.get(), hear);
+  const auto saidOf = [&](const std::function<void()>& write) {
+    said.clear();
+    write();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !exports.isBusy(); }, kPatienceMs));
+    return said;
+  };
+  const auto pose = folder_ / "pose.json", report = folder_ / "report.pdf";
+  EXPECT_TRUE(test::has(exporter.poseFileName(), "NOT_VALIDATED"));
+  EXPECT_TRUE(test::has(saidOf([&] { exporter.exportPose(pose); }), "NOT VALIDATED"));
+  EXPECT_TRUE(sessions::verifyPose(pose, true).good());
+  EXPECT_TRUE(test::has(saidOf([&] { exporter.exportReport(report); }), "NOT VALIDATED"));
+  EXPECT_GT(std::filesystem::file_size(report), 10000u);
 
-  ExportRunner exports_;
-  PoseExport exporter_{*panel_, document_, state_, exports_};
-  QString said_;
-};
-
-TEST_F(PoseExportTest, UnvalidatedPose_IsLabelledInTheFile) {
-  EXPECT_TRUE(test::has(exporter_.poseFileName(), "NOT_VALIDATED"));
-  exporter_.exportPose(folder_.path() / "pose.json");
-  ASSERT_TRUE(rests());
-  EXPECT_TRUE(test::has(said_, "NOT VALIDATED"));
-  EXPECT_TRUE(sessions::verifyPose(folder_.path() / "pose.json", true).good());
-  validateAs(QStringLiteral("Ada"));
-  EXPECT_EQ(exporter_.poseFileName(),
-            fromText(firstCase()) + QStringLiteral("_validated_pose.json"));
-  EXPECT_EQ(exporter_.reportFileName(), fromText(firstCase()) + QStringLiteral("_pose_report.pdf"));
-}
-
-TEST_F(PoseExportTest, Report_IsOfTheShownCase) {
-  const std::filesystem::path file = folder_.path() / "report.pdf";
-  exporter_.exportReport(file);
-  ASSERT_TRUE(rests());
-  EXPECT_TRUE(test::has(said_, "NOT VALIDATED"));
-  EXPECT_GT(std::filesystem::file_size(file), 10000u);
-}
-
-TEST_F(PoseExportTest, ResultsOfUnvalidatedPoses_NeedANameThatSaysSo) {
-  exporter_.exportBopResults(folder_.path() / "results.csv", 1);
-  ASSERT_TRUE(rests());
-  EXPECT_TRUE(test::has(said_, "NOT-VALIDATED"));
-  const std::filesystem::path honest =
-      folder_.path() / exporter_.bopResultsFileName().toStdString();
-  exporter_.exportBopResults(honest, 1);
-  ASSERT_TRUE(rests());
+  // Results of poses that are not validated need a name that says so.
+  const auto results = folder_ / "results.csv";
+  const auto honest = folder_ / exporter.bopResultsFileName().toStdString();
+  EXPECT_TRUE(test::has(saidOf([&] { exporter.exportBopResults(results, 1); }), "NOT-VALIDATED"));
+  saidOf([&] { exporter.exportBopResults(honest, 1); });
   EXPECT_TRUE(std::filesystem::exists(honest));
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results.csv"));
+  EXPECT_FALSE(std::filesystem::exists(results));
+
+  hands().validateAs(QStringLiteral("Ada"));
+  const QString id = fromText(firstCase());
+  EXPECT_EQ(exporter.poseFileName(), id + QStringLiteral("_validated_pose.json"));
+  EXPECT_EQ(exporter.reportFileName(), id + QStringLiteral("_pose_report.pdf"));
 }
 
 /// Reviewing in the whole window: from a run to a decision, and what takes it away again.
@@ -467,31 +406,23 @@ class ReviewWindowTest : public test::WindowTest {
  protected:
   bool checked() {
     return wait([this] {
-      return panel().controller().isCurrent() && !panel().controller().isBusy() &&
-             !window_.tasks().isBusy() && window_.run().state() != RunState::kWorking;
+      return panel().controller().isCurrent() && !panel().controller().isBusy() && resting();
     });
   }
   ReviewPanel& panel() { return *window_.findChild<ReviewPanel*>(); }
   test::ReviewHands hands() { return test::ReviewHands(panel()); }
-  QString banner() { return panel().findChild<Banner*>()->text(); }
   /// As the list of cases names the state of the example's first case.
   QString listed() {
-    const auto* table = window_.findChild<QTableView*>(QStringLiteral("cases"));
-    for (int row = 0; row < table->model()->rowCount(); ++row)
-      if (table->model()->index(row, CasesModel::kCase).data().toString().toStdString() ==
-          firstCase())
-        return table->model()->index(row, CasesModel::kState).data().toString();
-    return {};
+    const auto& table = find<QTableView>("cases");
+    const int row = test::rowWith(table, CasesModel::kCase, fromText(firstCase()));
+    return test::textAt(table, row, CasesModel::kState);
   }
   void validateRun() {
-    if (window_.document().session().runs.empty()) openRun();
     QTest::keyClick(&window_, Qt::Key_F9);
     ASSERT_TRUE(checked());
     ASSERT_GT(hands().table().model()->rowCount(), 5) << "checks appear by themselves";
-    hands().passOverAll(QStringLiteral("known"));
-    hands().sign(QStringLiteral("Ada"), QStringLiteral("looked at it"));
-    hands().click("validate");
-    ASSERT_TRUE(listed().contains(QStringLiteral("validated"))) << listed().toStdString();
+    hands().validateAs(QStringLiteral("Ada"));
+    ASSERT_TRUE(test::has(listed(), "validated"));
   }
 };
 
@@ -507,16 +438,14 @@ TEST_F(ReviewWindowTest, BarResultChecksAndReport_StateOneQuality) {
   ASSERT_TRUE(wait([&] { return bar.text().contains(QStringLiteral("known to")); }));
   EXPECT_TRUE(test::has(bar.text(), quality.text().c_str()));
   const auto labels = window_.dock(QStringLiteral("result"))->findChildren<QLabel*>();
-  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [&](const QLabel* each) {
-    return each->text() == fromText(worst->text());
-  }));
+  EXPECT_THAT(labels, testing::Contains(testing::Property(&QLabel::text, fromText(worst->text()))));
   QTest::keyClick(&window_, Qt::Key_F9);
   ASSERT_TRUE(checked());
-  for (const sessions::Check& check : panel().controller().checks())
-    if (check.id == worst->check.id) {
-      EXPECT_EQ(check.figure, worst->found);
-    }
-  EXPECT_EQ(bar.verdict().tone == VerdictTone::kCaution, hands().failedCount() > 0);
+  const auto& checks = panel().controller().checks();
+  const auto check = std::ranges::find(checks, worst->check.id, &sessions::Check::id);
+  ASSERT_NE(check, checks.end());
+  EXPECT_EQ(check->figure, worst->found);
+  EXPECT_EQ(bar.verdict().tone == VerdictTone::kCaution, countOf(checks, CheckState::kFailed) > 0);
 }
 
 /// Measuring a pose again can take as long as its convergence test.
@@ -527,66 +456,58 @@ TEST_F(ReviewWindowTest, Exports_AreInTheJobStripUntilTheyAreWritten) {
   int cases = 0;
   QObject::connect(&window_.exports(), &ExportRunner::changed, &window_,
                    [&] { cases = std::max(cases, strip.job().of); });
-  exporter.exportReport(folder_.path() / "report.pdf");
-  exporter.exportColmap(folder_.path() / "colmap");
+  exporter.exportReport(folder_ / "report.pdf");
+  exporter.exportColmap(folder_ / "colmap");
   EXPECT_EQ(strip.job().name, QStringLiteral("Writing report.pdf"));
   EXPECT_TRUE(strip.job().runs);
   EXPECT_FALSE(strip.stop().isVisible()) << "it cannot be stopped";
   ASSERT_TRUE(wait([&] { return !window_.exports().isBusy(); }));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report.pdf"));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "colmap")) << "none replaces another";
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "colmap")) << "none replaces another";
   EXPECT_EQ(cases, 2) << "counted";
   EXPECT_FALSE(strip.job().runs);
 }
 
-TEST_F(ReviewWindowTest, ChangedOptions_AreOutdatedInBarAndBanner) {
+TEST_F(ReviewWindowTest, FromARunToAValidation_ThatOptionsOutdateAndANewSeedInvalidates) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F9);
+  EXPECT_TRUE(test::has(hands().hint(), "F5"));
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(checked());
   validateRun();
   const auto& bar = window_.frame().verdict();
   ASSERT_TRUE(wait([&] { return bar.verdict().head == QStringLiteral("Validated"); }));
   EXPECT_EQ(bar.verdict().step, Step::kExportPose);
+
   sessions::Session changed = window_.document().session();
   changed.options = {{"pnp.min_inliers", std::int64_t{20}}};
   ASSERT_TRUE(window_.document().edit(changed, QStringLiteral("options")));
   const char* outdated = "outdated: the run was made with other options";
-  EXPECT_TRUE(test::has(banner(), outdated));
+  EXPECT_TRUE(test::has(hands().banner(), outdated));
   for (const Workspace workspace : {Workspace::kReview, Workspace::kRun}) {
     window_.workspaces().show(workspace);
     ASSERT_TRUE(wait([&] { return bar.verdict().head == QStringLiteral("Validated; outdated"); }));
     EXPECT_TRUE(test::has(bar.text().toLower(), outdated));
   }
-}
+  ASSERT_TRUE(window_.document().undo());
 
-TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
-  openExample();
-  QTest::keyClick(&window_, Qt::Key_F9);
-  EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "F5"));
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(checked());
-  validateRun();
-  window_.setFocus();
-  QTest::keySequence(&window_, QKeySequence::Undo);
-  EXPECT_TRUE(test::has(listed(), "converged"));
-  QTest::keySequence(&window_, QKeySequence::Redo);
-  EXPECT_TRUE(test::has(listed(), "validated"));
-  ASSERT_TRUE(window_.document().save());
-  ASSERT_TRUE(reopen());
   QTest::keyClick(&window_, Qt::Key_F9);
   ASSERT_TRUE(checked());
-  EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
-}
-
-TEST_F(ReviewWindowTest, NewSeed_InvalidatesTheValidationWithTheReason) {
-  validateRun();
   moveSeed(0.001);
   EXPECT_FALSE(panel().controller().isCurrent()) << "stale at once";
   EXPECT_TRUE(test::has(listed(), "converged"));
-  EXPECT_TRUE(test::has(banner(), "no longer holds: the image, camera, mesh, seed"));
+  EXPECT_TRUE(test::has(hands().banner(), "no longer holds: the image, camera, mesh, seed"));
   ASSERT_TRUE(checked());
   hands().passOverAll(QStringLiteral("known"));
   hands().sign(QStringLiteral("Ada"), QStringLiteral("again"));
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "the run is of the former seed";
   QTest::keySequence(&window_, QKeySequence::Undo);
-  EXPECT_TRUE(listed().contains(QStringLiteral("validated"))) << "what was judged is back";
+  EXPECT_TRUE(test::has(listed(), "validated")) << "what was judged is back";
+  ASSERT_TRUE(window_.document().save());
+  ASSERT_TRUE(reopen());
+  QTest::keyClick(&window_, Qt::Key_F9);
+  ASSERT_TRUE(checked());
+  EXPECT_TRUE(test::has(hands().banner(), "Validated by Ada"));
 }
 
 }  // namespace

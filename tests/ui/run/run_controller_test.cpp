@@ -49,29 +49,24 @@ class RunControllerTest : public testing::Test {
     both.others = {second};
     return both;
   }
-  std::string headlessDigest() const {
-    return sessions::localize(case_->problem(), defaultProfile(), sessions::RecordLevel::kSummary)
-        .digest;
-  }
 
   std::shared_ptr<const sessions::LoadedCase> case_ = test::loadedExample("bc");
   RunController run_;
   std::vector<std::size_t> counts_;  ///< iterations of each snapshot
 };
 
-TEST_F(RunControllerTest, ShowsEveryIterationOnTheWayToTheEnd) {
+TEST_F(RunControllerTest, ShowsEveryIterationOnTheWayToTheEnd_AStopHaltsItAndChangesNoBit) {
+  const auto headless =
+      sessions::localize(case_->problem(), defaultProfile(), sessions::RecordLevel::kSummary);
   run_.reset(inputs());
   run_.advance(StepUntil::kEnd);
   ASSERT_TRUE(arrives(RunState::kFinished));
-  EXPECT_EQ(run_.snapshot()->digest, headlessDigest());
+  EXPECT_EQ(run_.snapshot()->digest, headless.digest);
   for (std::size_t i = 0; i < run_.snapshot()->iterations.size(); ++i)
     EXPECT_NE(std::find(counts_.begin(), counts_.end(), i + 1), counts_.end()) << i;
-}
-
-TEST_F(RunControllerTest, AStopHaltsItWhereItIsAndChangesNoBit) {
   run_.reset(inputs());
   ASSERT_NO_FATAL_FAILURE(runHaltingly());
-  EXPECT_EQ(run_.snapshot()->digest, headlessDigest());
+  EXPECT_EQ(run_.snapshot()->digest, headless.digest);
 }
 
 TEST_F(RunControllerTest, SeveralViewsAreRunAsOneAndAStopChangesNoBit) {

@@ -5,7 +5,9 @@
 #include <QStringList>
 #include <QtTest/QTest>
 
+#include <functional>
 #include <future>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -29,8 +31,7 @@ class TaskRunnerTest : public testing::Test {
   }
   void startValue(const QString& key, int value) {
     runner_.start(
-        key, [value](const std::stop_token&) { return value; },
-        [this](int result) { taken_.push_back(result); });
+        key, [value](const std::stop_token&) { return value; }, take_);
   }
   /// A task that waits for the gate, then reports whether it was asked to stop.
   void startGated(const QString& key) {
@@ -40,11 +41,12 @@ class TaskRunnerTest : public testing::Test {
           gate.wait();
           return stop.stop_requested() ? 1000 : 2000;
         },
-        [this](int result) { taken_.push_back(result); });
+        take_);
   }
 
   std::promise<void> gate_;
   std::vector<int> taken_;
+  const std::function<void(int)> take_ = [this](int result) { taken_.push_back(result); };
   QStringList failures_;
   TaskRunner runner_;
 };
@@ -64,8 +66,9 @@ TEST_F(TaskRunnerTest, TakesValuesInTheirOrderOnTheOwnersThread) {
         });
   }
   ASSERT_TRUE(rests());
-  ASSERT_EQ(taken_.size(), 20u);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(taken_[static_cast<std::size_t>(i)], i);
+  std::vector<int> expected(20);
+  std::iota(expected.begin(), expected.end(), 0);
+  EXPECT_EQ(taken_, expected);
   EXPECT_TRUE(here_as_well);
 }
 
@@ -101,8 +104,7 @@ TEST_F(TaskRunnerTest, AStopReachesATaskThatStillWaits) {
   startGated(QStringLiteral("first"));
   runner_.start(
       QStringLiteral("second"),
-      [](const std::stop_token& stop) { return stop.stop_requested() ? 1 : 0; },
-      [this](int result) { taken_.push_back(result); });
+      [](const std::stop_token& stop) { return stop.stop_requested() ? 1 : 0; }, take_);
   runner_.stop(QStringLiteral("second"));
   gate_.set_value();
   ASSERT_TRUE(rests());
@@ -127,7 +129,7 @@ TEST_F(TaskRunnerTest, ReportsOnTheWayAndNothingMoreOnceCancelled) {
 
 TEST_F(TaskRunnerTest, SaysWhyATaskFailedAndGoesOn) {
   const auto throwing = [](const std::stop_token&) -> int { throw std::runtime_error("no luck"); };
-  runner_.start(QStringLiteral("bad"), throwing, [this](int result) { taken_.push_back(result); });
+  runner_.start(QStringLiteral("bad"), throwing, take_);
   runner_.start(
       QStringLiteral("large"), [](const std::stop_token&) -> int { throw std::bad_alloc(); },
       [](int) {});

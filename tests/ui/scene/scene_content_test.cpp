@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/trace/scene_render.h"
+#include "tests/support/box_mesh.h"
 #include "tests/support/random_pose.h"
 #include "tests/ui/scene/scene_fixture.h"
 #include "ui/scene/scene_aim.h"
@@ -14,18 +15,19 @@
 namespace boresight::ui {
 namespace {
 
-TEST(SceneContent, IsEmptyWithoutACase) {
-  const ViewState state;
-  EXPECT_TRUE(sceneContent(state).empty());
-}
+class SceneContentTest : public ::testing::Test {
+ protected:
+  SceneContentTest() { test::showRun(state_); }
 
-TEST(SceneContent, HoldsTheCamerasOfTheRunAtTheCursor) {
-  ViewState state;
-  test::showRun(state);
-  const SceneContent content = sceneContent(state);
+  ViewState state_;
+};
+
+TEST_F(SceneContentTest, HoldsTheCamerasOfTheRunAtTheCursor) {
+  EXPECT_TRUE(sceneContent(ViewState()).empty()) << "there is no case";
+  const SceneContent content = sceneContent(state_);
   ASSERT_EQ(content.frusta.size(), 3u);
   for (const Frustum& frustum : content.frusta) {
-    const Pose pose = poseOf(state, frustum.role).value();
+    const Pose pose = poseOf(state_, frustum.role).value();
     EXPECT_LT((pose * frustum.apex_m).norm(), 1e-12);
     // Its corners project to the image's.
     const Camera& camera = content.one->source.camera;
@@ -34,16 +36,14 @@ TEST(SceneContent, HoldsTheCamerasOfTheRunAtTheCursor) {
     EXPECT_NEAR(pixel.x(), camera.width - 0.5, 1e-4);
     EXPECT_NEAR(pixel.y(), camera.height - 0.5, 1e-4);
   }
-  EXPECT_EQ(content.trail_m.size(), state.snapshot()->iterations.size() + 1);
-  EXPECT_EQ(content.trail_now, state.cursor().iteration + 1);
-  state.setNudgedPose(state.shownPose());
-  EXPECT_EQ(sceneContent(state).frusta.size(), 4u);
+  EXPECT_EQ(content.trail_m.size(), state_.snapshot()->iterations.size() + 1);
+  EXPECT_EQ(content.trail_now, state_.cursor().iteration + 1);
+  state_.setNudgedPose(state_.shownPose());
+  EXPECT_EQ(sceneContent(state_).frusta.size(), 4u);
 }
 
-TEST(SceneContent, EachCameraCarriesThePartsThatAreFixedToIt) {
-  ViewState state;
-  test::showRun(state);
-  const std::size_t before = sceneContent(state).frusta.front().lines.size();
+TEST_F(SceneContentTest, EachCameraCarriesThePartsThatAreFixedToIt) {
+  const std::size_t before = sceneContent(state_).frusta.front().lines.size();
   auto held = std::make_shared<sessions::LoadedCase>();
   held->source = test::sceneCase()->source;
   held->image = test::sceneCase()->image;
@@ -55,11 +55,11 @@ TEST(SceneContent, EachCameraCarriesThePartsThatAreFixedToIt) {
   part.match = false;
   part.fixed_to_camera = true;
   sessions::addPart(held->scene, finger, Pose(), part, 1.0);
-  state.setCase(held);
-  const SceneContent content = sceneContent(state);
+  state_.setCase(held);
+  const SceneContent content = sceneContent(state_);
   ASSERT_GE(content.frusta.size(), 1u);
   for (const Frustum& frustum : content.frusta) {
-    const Pose pose = poseOf(state, frustum.role).value();
+    const Pose pose = poseOf(state_, frustum.role).value();
     const auto distance_m = [&pose](const Eigen::Vector3d& at_m) {
       return (pose * at_m - Eigen::Vector3d(0.01, 0.0, 0.2)).norm();
     };
@@ -72,31 +72,24 @@ TEST(SceneContent, EachCameraCarriesThePartsThatAreFixedToIt) {
   EXPECT_EQ(content.mesh().faces.size(), test::sceneCase()->scene.faces.size());
 }
 
-TEST(SceneContent, CameraOfARejectedRunLooksRejected) {
-  ViewState state;
-  test::showRun(state);
-  auto run = std::make_shared<sessions::LocalizationTrace>(*state.snapshot());
+TEST_F(SceneContentTest, CameraOfARejectedRunLooksRejected) {
+  auto run = std::make_shared<sessions::LocalizationTrace>(*state_.snapshot());
   run->status = LocalizationStatus::kPnpFailed;
-  state.setSnapshot(run);
-  for (const Frustum& frustum : sceneContent(state).frusta) {
-    const bool estimate = frustum.role == PoseRole::kEstimate;
-    EXPECT_EQ(frustum.rejected, estimate);
-    if (!estimate) continue;
+  state_.setSnapshot(run);
+  for (const Frustum& frustum : sceneContent(state_).frusta) {
+    EXPECT_EQ(frustum.rejected, frustum.role == PoseRole::kEstimate);
+    if (!frustum.rejected) continue;
     EXPECT_NE(frustum.color, poseRoleStyle(PoseRole::kEstimate).color);
     EXPECT_GT(frustum.lines.size(), 20u) << "dots";
   }
 }
 
-TEST(SceneContent, TellsInliersFromOutliersAsThePoseDid) {
-  ViewState state;
-  test::showRun(state);
-  const SceneContent content = sceneContent(state);
-  const sessions::IterationTrace& iteration = *state.iteration();
+TEST_F(SceneContentTest, TellsInliersFromOutliersAsThePoseDid) {
+  const SceneContent content = sceneContent(state_);
+  const sessions::IterationTrace& iteration = *state_.iteration();
   ASSERT_EQ(content.points.size(), iteration.templates.size());
-  int inliers = 0;
-  for (const ScenePoint& point : content.points)
-    if (point.kind == ScenePointKind::kInlier) ++inliers;
-  EXPECT_EQ(inliers, iteration.pnp.inlier_count);
+  EXPECT_EQ(std::ranges::count(content.points, ScenePointKind::kInlier, &ScenePoint::kind),
+            iteration.pnp.inlier_count);
   for (std::size_t i = 0; i < iteration.template_of.size(); ++i) {
     const auto of = static_cast<std::size_t>(iteration.template_of[i]);
     EXPECT_EQ(content.points[of].residual_px, iteration.pnp.residual_px[i]);
@@ -104,14 +97,12 @@ TEST(SceneContent, TellsInliersFromOutliersAsThePoseDid) {
   }
 }
 
-TEST(SceneContent, ShowsTheEdgePlacesOfARefinement) {
-  ViewState state;
-  test::showRun(state);
-  for (int i = 0; i < static_cast<int>(state.snapshot()->iterations.size()); ++i) {
-    state.setCursor({i, Stage::kFinished});
-    if (state.iteration()->kind != IterationKind::kRefine) continue;
-    const SceneContent content = sceneContent(state);
-    EXPECT_EQ(content.points.size(), state.iteration()->refinement.samples.size());
+TEST_F(SceneContentTest, ShowsTheEdgePlacesOfARefinement) {
+  for (int i = 0; i < static_cast<int>(state_.snapshot()->iterations.size()); ++i) {
+    state_.setCursor({i, Stage::kFinished});
+    if (state_.iteration()->kind != IterationKind::kRefine) continue;
+    const SceneContent content = sceneContent(state_);
+    EXPECT_EQ(content.points.size(), state_.iteration()->refinement.samples.size());
     for (const ScenePoint& point : content.points) EXPECT_EQ(point.template_index, -1);
     return;
   }
@@ -123,9 +114,7 @@ TEST(Dashed, CoversTheShareThatTheDashesSay) {
   std::set<std::size_t> counts;
   for (int i = 0; i < kPoseRoles; ++i) {
     const auto& dashes = poseRoleStyle(static_cast<PoseRole>(i)).dashes;
-    double drawn = 0.0;
-    double period = 0.0;
-    double length = 0.0;
+    double drawn = 0.0, period = 0.0, length = 0.0;
     for (std::size_t part = 0; part < dashes.size(); ++part) {
       period += dashes[part];
       if (part % 2 == 0) drawn += dashes[part];
@@ -140,23 +129,15 @@ TEST(Dashed, CoversTheShareThatTheDashesSay) {
 }
 
 TEST(SharpEdges, OfACubeAreItsTwelve) {
-  std::vector<Eigen::Vector3f> vertices;
-  for (int i = 0; i < 8; ++i)
-    vertices.emplace_back(static_cast<float>(i & 1), static_cast<float>((i >> 1) & 1),
-                          static_cast<float>((i >> 2) & 1));
-  const std::vector<Face> faces = {{{0, 1, 3}}, {{0, 3, 2}}, {{4, 5, 7}}, {{4, 7, 6}},
-                                   {{0, 1, 5}}, {{0, 5, 4}}, {{2, 3, 7}}, {{2, 7, 6}},
-                                   {{0, 2, 6}}, {{0, 6, 4}}, {{1, 3, 7}}, {{1, 7, 5}}};
-  const std::vector<std::uint16_t> part_of_face(12, 0);
-  const std::vector<ScenePart> parts(1);
-  const MeshView cube = {vertices, faces, part_of_face, parts};
-  const auto edges = sharpEdges(cube);
+  sessions::SceneMesh cube = test::boxMesh({0.5, 0.5, 0.5});
+  for (const std::size_t inwards : {0u, 1u, 6u, 7u, 8u, 9u})  // three sides are wound so
+    std::swap(cube.faces[inwards].vertex[0], cube.faces[inwards].vertex[1]);
+  const auto edges = sharpEdges(cube.view());
   EXPECT_EQ(edges.size(), 12u);
-  for (const auto& edge : edges)
-    EXPECT_EQ(
-        (vertices[static_cast<std::size_t>(edge[0])] - vertices[static_cast<std::size_t>(edge[1])])
-            .norm(),
-        1.0F);
+  const auto corner = [&cube](std::int32_t vertex) {
+    return cube.vertices_in_station_m[static_cast<std::size_t>(vertex)];
+  };
+  for (const auto& edge : edges) EXPECT_EQ((corner(edge[0]) - corner(edge[1])).norm(), 1.0F);
 }
 
 /// Two squares behind each other, seen from straight ahead: the near one is smaller.
@@ -164,57 +145,47 @@ struct Stack {
   SceneContent content;
   Viewpoint view;
 
-  Stack() {
+  explicit Stack(const std::vector<Eigen::Vector3d>& templates_m) {
     auto value = std::make_shared<sessions::LoadedCase>();
-    for (const float z : {0.0F, 0.1F}) {
+    value->scene.parts.resize(1);
+    for (const auto& [z, half] : {std::pair(0.0F, 0.05F), {0.1F, 0.1F}}) {
       const auto first = static_cast<std::int32_t>(value->scene.vertices_in_station_m.size());
-      const float half = z == 0.0F ? 0.05F : 0.1F;
       for (const auto& [x, y] :
            {std::pair(-half, -half), {half, -half}, {half, half}, {-half, half}})
         value->scene.vertices_in_station_m.emplace_back(x, y, z);
-      value->scene.faces.push_back({{first, first + 1, first + 2}});
-      value->scene.faces.push_back({{first, first + 2, first + 3}});
+      test::addQuad(value->scene, first, first + 1, first + 2, first + 3);
     }
-    value->scene.part_of_face.assign(4, 0);
-    value->scene.parts.resize(1);
     content.one = value;
     content.bounds.minimum_m = {-0.1, -0.1, 0.0};
     content.bounds.maximum_m = {0.1, 0.1, 0.1};
     view.view_from_station.translation_m = {0.0, 0.0, 0.5};
     view.camera = test::makePinhole(400, 400, 500.0);
+    for (const Eigen::Vector3d& at_m : templates_m) {
+      ScenePoint& point = content.points.emplace_back();
+      point.at_m = at_m;
+      point.template_index = static_cast<int>(content.points.size()) - 1;
+    }
   }
 
-  void addTemplate(const Eigen::Vector3d& at_m) {
-    ScenePoint point;
-    point.at_m = at_m;
-    point.template_index = static_cast<int>(content.points.size());
-    content.points.push_back(point);
+  int pick(const Eigen::Vector3d& at_m) const {
+    return pickTemplate(content, view, view.toCanvas(at_m).value());
   }
-  QPointF at(const Eigen::Vector3d& at_m) const { return view.toCanvas(at_m).value(); }
 };
 
-TEST(PickTemplate, TakesTheNearestWithinReach) {
-  Stack stack;
-  stack.addTemplate({0.01, 0.0, 0.0});
-  stack.addTemplate({0.02, 0.0, 0.0});
-  EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.012, 0.0, 0.0})), 0);
-  EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.018, 0.0, 0.0})), 1);
-  EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.0, 0.03, 0.0})), -1);
+TEST(PickTemplate, TakesTheNearestWithinReach_OfTemplatesAlone) {
+  Stack stack({{0.01, 0.0, 0.0}, {0.02, 0.0, 0.0}});
+  EXPECT_EQ(stack.pick({0.012, 0.0, 0.0}), 0);
+  EXPECT_EQ(stack.pick({0.018, 0.0, 0.0}), 1);
+  EXPECT_EQ(stack.pick({0.0, 0.03, 0.0}), -1);
+  for (ScenePoint& point : stack.content.points) point.template_index = -1;
+  EXPECT_EQ(stack.pick({0.01, 0.0, 0.0}), -1);
 }
 
 TEST(PickTemplate, SeesNoneBehindAFace) {
-  Stack stack;
-  stack.addTemplate({0.0, 0.0, 0.1});   // behind the near square
-  stack.addTemplate({0.09, 0.0, 0.1});  // next to it
-  EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.0, 0.0, 0.1})), -1);
-  EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.09, 0.0, 0.1})), 1);
-}
-
-TEST(PickTemplate, LeavesOutPlacesThatAreNoTemplates) {
-  Stack stack;
-  stack.addTemplate({0.0, 0.0, 0.0});
-  stack.content.points[0].template_index = -1;
-  EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.0, 0.0, 0.0})), -1);
+  const Stack stack({{0.0, 0.0, 0.1},     // behind the near square
+                     {0.09, 0.0, 0.1}});  // next to it
+  EXPECT_EQ(stack.pick({0.0, 0.0, 0.1}), -1);
+  EXPECT_EQ(stack.pick({0.09, 0.0, 0.1}), 1);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "sessions/trace/scene_render.h"
 #include "tests/support/example_run.h"
 #include "tests/support/loaded_example.h"
+#include "tests/ui/pixels.h"
 #include "ui/scene/scene_content.h"
 #include "ui/scene/viewpoint.h"
 #include "ui/state/view_state.h"
@@ -27,24 +28,19 @@ inline const std::shared_ptr<const sessions::LoadedCase>& sceneCase() {
 inline void showRun(ui::ViewState& state) {
   state.setCase(sceneCase());
   state.setSnapshot(exampleRun());
-  for (int i = static_cast<int>(exampleRun()->iterations.size()) - 1; i >= 0; --i)
-    if (!exampleRun()->iterations[static_cast<std::size_t>(i)]->templates.empty()) {
-      state.setCursor({i, Stage::kFinished});
-      return;
-    }
+  int i = static_cast<int>(exampleRun()->iterations.size()) - 1;
+  while (i > 0 && exampleRun()->iterations[static_cast<std::size_t>(i)]->templates.empty()) --i;
+  state.setCursor({i, Stage::kFinished});
 }
 
 /// Number of pixels whose channels differ from a colour's by at most so much.
 inline int pixelsLike(const QImage& picture, const QColor& color, int tolerance) {
-  int count = 0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) {
-      const QRgb pixel = picture.pixel(x, y);
-      count += std::abs(qRed(pixel) - color.red()) <= tolerance &&
-               std::abs(qGreen(pixel) - color.green()) <= tolerance &&
-               std::abs(qBlue(pixel) - color.blue()) <= tolerance;
-    }
-  return count;
+  return countPixels(picture.size(), [&](int x, int y) {
+    const QRgb pixel = picture.pixel(x, y);
+    return std::abs(qRed(pixel) - color.red()) <= tolerance &&
+           std::abs(qGreen(pixel) - color.green()) <= tolerance &&
+           std::abs(qBlue(pixel) - color.blue()) <= tolerance;
+  });
 }
 
 /// The face that the core renders at each pixel of a view, or -1.

@@ -41,6 +41,12 @@ class ScenePixels : public ::testing::Test {
   }
   void show(bool mesh, bool points) { view_.setShown({mesh, false, false, false, points, false}); }
 
+  /// With the image, which would else arrive between two pictures.
+  void lookThroughCamera() {
+    view_.navigation().setThroughCamera(true);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view_.backdropReady(); }, 60000));
+  }
+
   ViewState state_;
   SceneView view_{state_};
 };
@@ -51,12 +57,15 @@ struct Mask {
   int height = 0;
   std::vector<bool> bits;
 
-  Mask(int w, int h) : width(w), height(h), bits(static_cast<std::size_t>(w * h)) {}
+  template <class Holds>
+  Mask(int w, int h, const Holds& holds) : width(w), height(h) {
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) bits.push_back(holds(x, y));
+  }
   bool get(int x, int y) const {
     return x >= 0 && y >= 0 && x < width && y < height &&
            bits[static_cast<std::size_t>(y * width + x)];
   }
-  void set(int x, int y, bool on) { bits[static_cast<std::size_t>(y * width + x)] = on; }
   bool border(int x, int y) const {
     if (!get(x, y) || x == 0 || y == 0 || x == width - 1 || y == height - 1) return false;
     return !get(x - 1, y) || !get(x + 1, y) || !get(x, y - 1) || !get(x, y + 1);
@@ -85,32 +94,23 @@ double borderShare(const Mask& of, const Mask& in) {
 
 Mask renderedMask(const SceneView& view) {
   const Viewpoint at = view.viewpoint();
-  Mask mask(at.camera.width, at.camera.height);
   const std::vector<std::int32_t> face = test::renderedFaces(view.content(), at);
-  for (std::size_t i = 0; i < face.size(); ++i) mask.bits[i] = face[i] >= 0;
-  return mask;
+  return Mask(at.camera.width, at.camera.height, [&](int x, int y) {
+    return face[static_cast<std::size_t>(y * at.camera.width + x)] >= 0;
+  });
 }
 
 Mask difference(const QImage& a, const QImage& b) {
-  Mask mask(a.width(), a.height());
-  for (int y = 0; y < a.height(); ++y)
-    for (int x = 0; x < a.width(); ++x) mask.set(x, y, a.pixel(x, y) != b.pixel(x, y));
-  return mask;
+  return Mask(a.width(), a.height(), [&](int x, int y) { return a.pixel(x, y) != b.pixel(x, y); });
 }
 
-TEST_F(ScenePixels, ShowsEveryFrustumInItsColour) {
+TEST_F(ScenePixels, ShowsEveryFrustumInItsColour_TheSilhouetteWhereTheCoreDrawsIt) {
   const QImage picture = canvasShot("free");
   for (const Frustum& frustum : view_.content().frusta)
     EXPECT_GT(test::pixelsLike(picture, frustum.color, 12), 100) << frustum.label.toStdString();
-}
-
-TEST_F(ScenePixels, DrawsTheSilhouetteWhereTheCoreDoes) {
   for (const bool through : {false, true}) {
-    view_.navigation().setThroughCamera(through);
+    if (through) lookThroughCamera();
     view_.setMeshOpacity(1.0);
-    if (through) {  // else it would arrive between two pictures
-      ASSERT_TRUE(QTest::qWaitFor([this] { return view_.backdropReady(); }, 60000));
-    }
     show(false, false);
     const QImage without = canvasShot("without-mesh");
     show(true, false);
@@ -130,8 +130,7 @@ TEST_F(ScenePixels, DrawsTheSilhouetteWhereTheCoreDoes) {
 }
 
 TEST_F(ScenePixels, DrawsTemplatesWhereTheyArePicked) {
-  view_.navigation().setThroughCamera(true);  // from where they are seen
-  ASSERT_TRUE(QTest::qWaitFor([this] { return view_.backdropReady(); }, 60000));
+  lookThroughCamera();  // from where they are seen
   show(true, false);
   const QImage without = canvasShot("without-points");
   show(true, true);
@@ -150,16 +149,13 @@ TEST_F(ScenePixels, DrawsTemplatesWhereTheyArePicked) {
 }
 
 TEST_F(ScenePixels, LaysTheMeshOverTheImage) {
-  view_.navigation().setThroughCamera(true);
-  ASSERT_TRUE(QTest::qWaitFor([this] { return view_.backdropReady(); }, 60000));
+  lookThroughCamera();
   const QImage light = shot("through");
   QPalette dark = QApplication::palette();
-  dark.setColor(QPalette::Window, QColor(45, 45, 48));
-  dark.setColor(QPalette::WindowText, Qt::white);
-  dark.setColor(QPalette::Button, QColor(58, 58, 62));
-  dark.setColor(QPalette::ButtonText, Qt::white);
-  dark.setColor(QPalette::Base, QColor(30, 30, 32));
-  dark.setColor(QPalette::Text, Qt::white);
+  for (const auto role : {QPalette::WindowText, QPalette::ButtonText, QPalette::Text})
+    dark.setColor(role, Qt::white);
+  for (const auto role : {QPalette::Window, QPalette::Button, QPalette::Base})
+    dark.setColor(role, QColor(45, 45, 48));
   view_.setPalette(dark);
   EXPECT_NE(shot("through-dark"), light);
   view_.navigation().setThroughCamera(false);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/box_mesh.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::ui {
@@ -10,11 +11,20 @@ namespace {
 
 const QSizeF kViewport(640.0, 480.0);
 
+const Eigen::Vector3d kHalf_m(0.2, 0.1, 0.06);
+
 BoundingBox someBox() {
+  const Eigen::Vector3d centre_m(0.1, 0.15, 0.04);
   BoundingBox box;
-  box.minimum_m = {-0.1, 0.05, -0.02};
-  box.maximum_m = {0.3, 0.25, 0.1};
+  box.minimum_m = centre_m - kHalf_m;
+  box.maximum_m = centre_m + kHalf_m;
   return box;
+}
+
+OrbitCamera framed() {
+  OrbitCamera orbit;
+  orbit.frame(someBox());
+  return orbit;
 }
 
 QPointF place(const Viewpoint& view, const Eigen::Vector3d& at_m) {
@@ -23,8 +33,7 @@ QPointF place(const Viewpoint& view, const Eigen::Vector3d& at_m) {
 
 TEST(OrbitCamera, KeepsTheStationUprightHoweverItIsTurned) {
   Random random = test::randomFor("KeepsTheStationUpright");
-  OrbitCamera orbit;
-  orbit.frame(someBox());
+  OrbitCamera orbit = framed();
   for (int i = 0; i < 100; ++i) {
     orbit.orbit({random.uniform(-300, 300), random.uniform(-300, 300)}, kViewport.height());
     const Viewpoint view = orbit.viewpoint(kViewport);
@@ -37,17 +46,17 @@ TEST(OrbitCamera, KeepsTheStationUprightHoweverItIsTurned) {
 }
 
 TEST(OrbitCamera, RollTurnsThePictureAboutItsMiddle) {
-  OrbitCamera orbit;
-  orbit.frame(someBox());
+  OrbitCamera orbit = framed();
   const QPointF middle = place(orbit.viewpoint(kViewport), orbit.target_m());
-  const QPointF above =
-      place(orbit.viewpoint(kViewport), orbit.target_m() + Eigen::Vector3d(0, 0, 0.05)) - middle;
+  const auto above = [&] {
+    const Eigen::Vector3d above_m = orbit.target_m() + Eigen::Vector3d(0, 0, 0.05);
+    return place(orbit.viewpoint(kViewport), above_m) - middle;
+  };
+  const QPointF before = above();
   orbit.roll(1.5707963267948966);
-  const Viewpoint view = orbit.viewpoint(kViewport);
-  EXPECT_LT((place(view, orbit.target_m()) - middle).manhattanLength(), 1e-6);
-  const QPointF turned = place(view, orbit.target_m() + Eigen::Vector3d(0, 0, 0.05)) - middle;
-  EXPECT_NEAR(turned.x(), -above.y(), 1e-6) << "clockwise";
-  EXPECT_NEAR(turned.y(), above.x(), 1e-6);
+  EXPECT_LT((place(orbit.viewpoint(kViewport), orbit.target_m()) - middle).manhattanLength(), 1e-6);
+  EXPECT_NEAR(above().x(), -before.y(), 1e-6) << "clockwise";
+  EXPECT_NEAR(above().y(), before.x(), 1e-6);
   orbit.lookFrom(StandardView::kFront);
   EXPECT_EQ(orbit.roll_rad(), 0.0);
 }
@@ -55,16 +64,12 @@ TEST(OrbitCamera, RollTurnsThePictureAboutItsMiddle) {
 TEST(OrbitCamera, FramesTheWholeBoxFromEverywhere) {
   Random random = test::randomFor("FramesTheWholeBox");
   for (const QSizeF canvas : {QSizeF(640, 480), QSizeF(200, 600)}) {
-    OrbitCamera orbit;
-    orbit.frame(someBox());
+    OrbitCamera orbit = framed();
     for (int i = 0; i < 50; ++i) {
       orbit.orbit({random.uniform(-300, 300), random.uniform(-300, 300)}, canvas.height());
       const Viewpoint view = orbit.viewpoint(canvas);
-      const BoundingBox box = someBox();
       for (int corner = 0; corner < 8; ++corner) {
-        const QPointF at = place(view, {(corner & 1 ? box.maximum_m : box.minimum_m).x(),
-                                        (corner & 2 ? box.maximum_m : box.minimum_m).y(),
-                                        (corner & 4 ? box.maximum_m : box.minimum_m).z()});
+        const QPointF at = place(view, someBox().centre() + test::boxCorner(kHalf_m, corner));
         EXPECT_TRUE(QRectF(QPointF(0, 0), canvas).contains(at)) << at.x() << ' ' << at.y();
       }
     }
@@ -72,24 +77,21 @@ TEST(OrbitCamera, FramesTheWholeBoxFromEverywhere) {
 }
 
 TEST(OrbitCamera, LooksAlongTheAxesThatTheViewsName) {
-  OrbitCamera orbit;
-  orbit.frame(someBox());
-  const auto forward = [&](StandardView view) -> Eigen::Vector3d {
-    orbit.lookFrom(view);
-    const Viewpoint viewpoint = orbit.viewpoint(kViewport);
-    return viewpoint.view_from_station.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  OrbitCamera orbit = framed();
+  const std::pair<StandardView, Eigen::Vector3d> directions[] = {
+      {StandardView::kTop, {0, 0, -1}},  {StandardView::kBottom, {0, 0, 1}},
+      {StandardView::kFront, {0, 1, 0}}, {StandardView::kBack, {0, -1, 0}},
+      {StandardView::kLeft, {1, 0, 0}},  {StandardView::kRight, {-1, 0, 0}},
   };
-  EXPECT_TRUE(forward(StandardView::kTop).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
-  EXPECT_TRUE(forward(StandardView::kBottom).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
-  EXPECT_TRUE(forward(StandardView::kFront).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
-  EXPECT_TRUE(forward(StandardView::kBack).isApprox(-Eigen::Vector3d::UnitY(), 1e-9));
-  EXPECT_TRUE(forward(StandardView::kLeft).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
-  EXPECT_TRUE(forward(StandardView::kRight).isApprox(-Eigen::Vector3d::UnitX(), 1e-9));
+  for (const auto& [view, forward] : directions) {
+    orbit.lookFrom(view);
+    const Eigen::Quaterniond turn = orbit.viewpoint(kViewport).view_from_station.rotation;
+    EXPECT_TRUE((turn.conjugate() * Eigen::Vector3d::UnitZ()).isApprox(forward, 1e-9));
+  }
 }
 
 TEST(OrbitCamera, PansSoThatTheTargetFollowsTheMouse) {
-  OrbitCamera orbit;
-  orbit.frame(someBox());
+  OrbitCamera orbit = framed();
   const Eigen::Vector3d before_m = orbit.target_m();
   const QPointF was = place(orbit.viewpoint(kViewport), before_m);
   orbit.pan({37.0, -21.0}, kViewport.height());
@@ -100,8 +102,7 @@ TEST(OrbitCamera, PansSoThatTheTargetFollowsTheMouse) {
 
 TEST(Viewpoint, SendsRaysThroughWhatItProjects) {
   Random random = test::randomFor("SendsRays");
-  OrbitCamera orbit;
-  orbit.frame(someBox());
+  OrbitCamera orbit = framed();
   orbit.orbit({100.0, 40.0}, kViewport.height());
   const Viewpoint view = orbit.viewpoint(kViewport);
   for (int i = 0; i < 50; ++i) {

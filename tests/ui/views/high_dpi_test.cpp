@@ -5,10 +5,11 @@
 #include <cmath>
 #include <vector>
 
-#include <QMouseEvent>
 #include <QtTest>
 
-#include "ui/views/image_view.h"
+#include "tests/ui/pixels.h"
+#include "tests/ui/pointer.h"
+#include "tests/ui/views/view_fixture.h"
 
 namespace boresight::ui {
 namespace {
@@ -32,23 +33,19 @@ class HighDpiTest : public ::testing::TestWithParam<double> {
     ASSERT_DOUBLE_EQ(view_.devicePixelRatioF(), kRatio) << "run with QT_SCALE_FACTOR=1.5";
     view_.resize(301, 203);
     view_.setImage(testImage());
-    for (int i = 0; i < kLayerCount; ++i)
-      view_.setStyle(static_cast<LayerId>(i), {false, Qt::red, 1.0});
+    test::hideLayers(view_);
     view_.show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(&view_));
-    ViewTransform transform = view_.transform();
-    transform.zoomAt(QPointF(150.3, 101.9), GetParam());
-    view_.setTransform(transform);
+    test::zoomAt(view_, {150.3, 101.9}, GetParam());
     picture_ = view_.grab().toImage();
   }
 
   /// What the windowing system tells of the pointer on a screen pixel.
-  void send(QEvent::Type type, const QPoint& screen_pixel, Qt::MouseButtons held) {
-    const QPointF at = QPointF(screen_pixel) / kRatio;
-    const auto button = type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton;
-    QMouseEvent event(type, at, QPointF(view_.mapToGlobal(QPoint(0, 0))) + at, button, held,
-                      Qt::NoModifier);
-    QCoreApplication::sendEvent(&view_, &event);
+  void moveTo(const QPoint& screen_pixel) {
+    test::moveMouse(view_, QPointF(screen_pixel) / kRatio);
+  }
+  void click(const QPoint& screen_pixel) {
+    test::dragMouse(view_, {QPointF(screen_pixel) / kRatio});
   }
 
   ImageView view_;
@@ -57,17 +54,13 @@ class HighDpiTest : public ::testing::TestWithParam<double> {
 
 /// Counts the image pixels within half a screen pixel of a place whose gray is the one drawn there.
 int grayFits(const QPointF& pixel, double half_screen_pixel, int drawn) {
-  int fits = 0;
-  const auto first = [&](double v) {
-    return static_cast<int>(std::floor(v - half_screen_pixel + 0.5));
-  };
-  const auto last = [&](double v) {
-    return static_cast<int>(std::floor(v + half_screen_pixel + 0.5));
-  };
-  for (int y = first(pixel.y()); y <= last(pixel.y()); ++y)
-    for (int x = first(pixel.x()); x <= last(pixel.x()); ++x)
-      if (x >= 0 && y >= 0 && x < kSide && y < kSide && grayAt(x, y) == drawn) ++fits;
-  return fits;
+  const auto rounded = [](double v) { return static_cast<int>(std::floor(v + 0.5)); };
+  const QPoint first(rounded(pixel.x() - half_screen_pixel),
+                     rounded(pixel.y() - half_screen_pixel));
+  const QPoint last(rounded(pixel.x() + half_screen_pixel), rounded(pixel.y() + half_screen_pixel));
+  const QRect places = QRect(first, last) & QRect(0, 0, kSide, kSide);
+  return test::countPixels(
+      places.size(), [&](int x, int y) { return grayAt(places.x() + x, places.y() + y) == drawn; });
 }
 
 TEST_P(HighDpiTest, ThePointerTellsThePixelThatIsDrawnUnderIt) {
@@ -78,7 +71,7 @@ TEST_P(HighDpiTest, ThePointerTellsThePixelThatIsDrawnUnderIt) {
   int seen = 0;
   for (int y = 1; y + 1 < picture_.height(); y += 7) {
     for (int x = 1; x + 1 < picture_.width(); x += 5) {
-      send(QEvent::MouseMove, {x, y}, Qt::NoButton);
+      moveTo({x, y});
       const QPointF pixel = moves.back()[0].toPointF();
       const bool inside =
           pixel.x() > 0.5 && pixel.y() > 0.5 && pixel.x() < kSide - 1.5 && pixel.y() < kSide - 1.5;
@@ -93,18 +86,14 @@ TEST_P(HighDpiTest, ThePointerTellsThePixelThatIsDrawnUnderIt) {
 
 TEST_P(HighDpiTest, ClickToolAndPointer_GiveTheSamePixel) {
   QSignalSpy moves(&view_, &ImageView::cursorMoved);
-  std::vector<QPointF> clicks;
-  QObject::connect(&view_, &ImageView::clicked,
-                   [&clicks](const QPointF& pixel) { clicks.push_back(pixel); });
+  QSignalSpy clicks(&view_, &ImageView::clicked);
   QSignalSpy strokes(&view_, &ImageView::toolPressed);
   for (const QPoint at : {QPoint(100, 100), QPoint(201, 92), QPoint(302, 203)}) {
-    send(QEvent::MouseMove, at, Qt::NoButton);
-    send(QEvent::MouseButtonPress, at, Qt::LeftButton);
-    send(QEvent::MouseButtonRelease, at, Qt::NoButton);
-    EXPECT_EQ(clicks.back(), moves.back()[0].toPointF());
+    moveTo(at);
+    click(at);
+    EXPECT_EQ(clicks.back()[0].toPointF(), moves.back()[0].toPointF());
     view_.setToolActive(true, 3.0);
-    send(QEvent::MouseButtonPress, at, Qt::LeftButton);
-    send(QEvent::MouseButtonRelease, at, Qt::NoButton);
+    click(at);
     view_.setToolActive(false);
     EXPECT_EQ(strokes.back()[0].toPointF(), moves.back()[0].toPointF());
   }
@@ -121,21 +110,13 @@ TEST_P(HighDpiTest, AMarkIsDrawnWhereItsPixelIs) {
   layer.marks = {mark};
   view_.setLayer(layer);
   picture_ = view_.grab().toImage();
-  QPointF sum;
-  double weight = 0.0;
-  for (int y = 0; y < picture_.height(); ++y)
-    for (int x = 0; x < picture_.width(); ++x) {
-      const QRgb color = picture_.pixel(x, y);
-      const double red = qRed(color) - qBlue(color);
-      if (red <= 0.0) continue;
-      sum += red * QPointF(x + 0.5, y + 0.5);
-      weight += red;
-    }
-  ASSERT_GT(weight, 0.0);
-  const QPointF off = sum / weight - kRatio * view_.transform().toWidget(mark.at);
+  const QPointF centre = test::centroid(picture_, 0.0, [](const QPointF&, QRgb color) {
+    return std::max(0, qRed(color) - qBlue(color));
+  });
+  const QPointF off = centre - kRatio * view_.transform().toWidget(mark.at);
   EXPECT_LT(std::abs(off.x()), 0.5);
   EXPECT_LT(std::abs(off.y()), 0.5);
-  const auto pick = view_.pickAt(sum / weight / kRatio);
+  const auto pick = view_.pickAt(centre / kRatio);
   ASSERT_TRUE(pick.has_value());
   EXPECT_EQ(pick->item, 5);
 }

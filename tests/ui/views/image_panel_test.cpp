@@ -12,6 +12,7 @@
 #include "tests/support/hypotheses_run.h"
 #include "tests/support/loaded_example.h"
 #include "tests/ui/patience.h"
+#include "tests/ui/pointer.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layer_legend.h"
@@ -20,8 +21,6 @@
 
 namespace boresight::ui {
 namespace {
-
-using test::kPatienceMs;
 
 class ImagePanelTest : public ::testing::Test {
  protected:
@@ -35,13 +34,20 @@ class ImagePanelTest : public ::testing::Test {
     state_.setCase(value);
   }
 
+  static bool wait(const std::function<bool()>& holds) {
+    return QTest::qWaitFor(holds, test::kPatienceMs);
+  }
+  const Layer& layer(LayerId id) { return panel_.view().layer(id); }
+  void show(LayerId id, bool visible) {
+    LayerStyle style = panel_.style(id);
+    style.visible = visible;
+    panel_.setStyle(id, style);
+  }
+  bool legendLists(LayerId id) { return std::ranges::count(panel_.legend().shown(), id) > 0; }
+
   /// With the middle of a screen pixel on this place.
   void pointAt(const QPointF& pixel) {
-    const QPointF half(0.5, 0.5);
-    const QPointF at = panel_.view().transform().toWidget(pixel) - half;
-    QMouseEvent move(QEvent::MouseMove, at, panel_.view().mapToGlobal(at.toPoint()), Qt::NoButton,
-                     Qt::NoButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&panel_.view(), &move);
+    test::moveMouse(panel_.view(), panel_.view().transform().toWidget(pixel) - QPointF(0.5, 0.5));
   }
 
   /// Station coordinates in the text, m.
@@ -120,58 +126,33 @@ TEST_F(ImagePanelTest, AHypothesisIsDrawnWithTheChosenPose) {
   const auto run = test::runWithHypotheses();
   state_.setSnapshot(run);
   const sessions::Alternative competing = sessions::alternativesOf(*run).front();
-  const auto layer = [this](LayerId id) -> const Layer& { return panel_.view().layer(id); };
-  EXPECT_TRUE(layer(LayerId::kHypothesisEdges).empty());
+  const Layer& hypothesis = layer(LayerId::kHypothesisEdges);
+  const Layer& chosen = layer(LayerId::kChosenEdges);
+  EXPECT_TRUE(hypothesis.empty());
+  EXPECT_FALSE(legendLists(LayerId::kHypothesisEdges));
+  EXPECT_TRUE(legendLists(LayerId::kSeedEdges));
   state_.setAlternative(competing);
-  ASSERT_TRUE(QTest::qWaitFor(
-      [&] {
-        return !layer(LayerId::kHypothesisEdges).empty() && !layer(LayerId::kChosenEdges).empty();
-      },
-      kPatienceMs));
+  ASSERT_TRUE(wait([&] { return !hypothesis.empty() && !chosen.empty(); }));
+  ASSERT_TRUE(wait([&] { return legendLists(LayerId::kHypothesisEdges); }));
   const auto& value = *state_.currentCase();
-  EXPECT_TRUE(
-      areLinesOf(layer(LayerId::kHypothesisEdges).lines, value, competing.camera_from_station));
-  EXPECT_TRUE(areLinesOf(layer(LayerId::kChosenEdges).lines, value, run->camera_from_station));
-  EXPECT_EQ(layer(LayerId::kHypothesisEdges).name, QStringLiteral("Competing pose 1"));
+  EXPECT_TRUE(areLinesOf(hypothesis.lines, value, competing.camera_from_station));
+  EXPECT_TRUE(areLinesOf(chosen.lines, value, run->camera_from_station));
+  EXPECT_EQ(hypothesis.name, QStringLiteral("Competing pose 1"));
   EXPECT_TRUE(layer(LayerId::kSeedEdges).faded);
   state_.setAlternative(std::nullopt);
-  EXPECT_TRUE(layer(LayerId::kHypothesisEdges).empty());
-  EXPECT_TRUE(layer(LayerId::kChosenEdges).empty());
+  EXPECT_TRUE(hypothesis.empty());
+  EXPECT_TRUE(chosen.empty());
   EXPECT_FALSE(layer(LayerId::kSeedEdges).faded);
+  EXPECT_FALSE(legendLists(LayerId::kHypothesisEdges));
 }
 
-TEST_F(ImagePanelTest, LegendListsAHypothesisOnlyWhileItIsShown) {
-  const auto run = test::runWithHypotheses();
-  state_.setSnapshot(run);
-  const auto lists = [this](LayerId id) {
-    const std::vector<LayerId> shown = panel_.legend().shown();
-    return std::find(shown.begin(), shown.end(), id) != shown.end();
-  };
-  EXPECT_TRUE(lists(LayerId::kSeedEdges));
-  EXPECT_FALSE(lists(LayerId::kHypothesisEdges));
-  state_.setAlternative(sessions::alternativesOf(*run).front());
-  ASSERT_TRUE(QTest::qWaitFor([&] { return lists(LayerId::kHypothesisEdges); }, kPatienceMs));
-  state_.setAlternative(std::nullopt);
-  EXPECT_FALSE(lists(LayerId::kHypothesisEdges));
-}
-
-TEST_F(ImagePanelTest, LegendListsWhatIsDrawn) {
+TEST_F(ImagePanelTest, LegendListsWhatIsDrawn_ItsRowsToggleTheirLayers) {
   state_.setSnapshot(test::runWithHypotheses());
-  const auto lists = [this](LayerId id) {
-    const std::vector<LayerId> shown = panel_.legend().shown();
-    return std::find(shown.begin(), shown.end(), id) != shown.end();
-  };
-  EXPECT_FALSE(lists(LayerId::kTestEdges));
-  LayerStyle style = panel_.style(LayerId::kTestEdges);
-  style.visible = true;
-  panel_.setStyle(LayerId::kTestEdges, style);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return lists(LayerId::kTestEdges); }, kPatienceMs));
-  style.visible = false;
-  panel_.setStyle(LayerId::kTestEdges, style);
-  EXPECT_FALSE(lists(LayerId::kTestEdges));
-}
-
-TEST_F(ImagePanelTest, ALegendRowTogglesItsLayer) {
+  EXPECT_FALSE(legendLists(LayerId::kTestEdges));
+  show(LayerId::kTestEdges, true);
+  ASSERT_TRUE(wait([&] { return legendLists(LayerId::kTestEdges); }));
+  show(LayerId::kTestEdges, false);
+  EXPECT_FALSE(legendLists(LayerId::kTestEdges));
   auto* row = panel_.legend().findChild<QAbstractButton*>(
       QStringLiteral("legend%1").arg(static_cast<int>(LayerId::kTruthEdges)));
   ASSERT_TRUE(row);
@@ -183,60 +164,39 @@ TEST_F(ImagePanelTest, ALegendRowTogglesItsLayer) {
 
 /// A failed run never looks like a result.
 TEST_F(ImagePanelTest, PoseOfARejectedRunHasAColourAndAPatternOfItsOwn) {
+  state_.setSnapshot(test::runWithHypotheses());
+  const Layer found = layer(LayerId::kIterationEdges);
   auto run = std::make_shared<sessions::LocalizationTrace>(*test::runWithHypotheses());
-  state_.setSnapshot(run);
-  const Layer found = panel_.view().layer(LayerId::kIterationEdges);
-  run = std::make_shared<sessions::LocalizationTrace>(*run);
   run->status = LocalizationStatus::kPnpFailed;
   state_.setSnapshot(run);
-  const Layer rejected = panel_.view().layer(LayerId::kIterationEdges);
+  const Layer& rejected = layer(LayerId::kIterationEdges);
   EXPECT_NE(rejected.shownLine().color, found.shownLine().color);
   EXPECT_NE(rejected.shownLine().gap_px, found.shownLine().gap_px);
   EXPECT_EQ(rejected.name, QStringLiteral("Rejected pose"));
 }
 
-TEST_F(ImagePanelTest, StagePoseShowsTheCorrectedEdges) {
+TEST_F(ImagePanelTest, AStageBringsItsLayerAndTakesItAway) {
   const auto run = test::runWithHypotheses();
   state_.setSnapshot(run);
-  const auto lines = [this] { return panel_.view().layer(LayerId::kIterationEdges).lines; };
-  state_.setCursor({0, Stage::kMatch});
-  ASSERT_TRUE(QTest::qWaitFor([&] { return lines() && !tasks_.isBusy(); }, kPatienceMs));
-  const LinesPtr before = lines();
-  state_.setCursor({0, Stage::kPose});
-  ASSERT_TRUE(QTest::qWaitFor([&] { return lines() != before; }, kPatienceMs));
-  EXPECT_TRUE(areLinesOf(lines(), *state_.currentCase(), run->iterations[0]->camera_from_station));
-}
-
-TEST_F(ImagePanelTest, AStageBringsItsLayerAndTakesItAway) {
-  state_.setSnapshot(test::runWithHypotheses());
   EXPECT_FALSE(panel_.style(LayerId::kTemplates).visible);
   state_.setCursor({0, Stage::kTemplates});
   EXPECT_TRUE(panel_.style(LayerId::kTemplates).visible);
-  EXPECT_FALSE(panel_.view().layer(LayerId::kTemplates).marks.empty());
+  EXPECT_FALSE(layer(LayerId::kTemplates).marks.empty());
+  state_.setCursor({0, Stage::kMatch});
+  EXPECT_TRUE(layer(LayerId::kWindows).marks.empty());
+  state_.selectTemplate(3);
+  EXPECT_EQ(layer(LayerId::kWindows).marks.size(), 2u) << "of the chosen template alone";
+  const LinesPtr& lines = layer(LayerId::kIterationEdges).lines;
+  ASSERT_TRUE(wait([&] { return lines && !tasks_.isBusy(); }));
+  const LinesPtr before = lines;
   state_.setCursor({0, Stage::kPose});
   EXPECT_FALSE(panel_.style(LayerId::kTemplates).visible);
+  ASSERT_TRUE(wait([&] { return lines != before; })) << "stage pose shows the corrected edges";
+  EXPECT_TRUE(areLinesOf(lines, *state_.currentCase(), run->iterations[0]->camera_from_station));
 }
 
-TEST_F(ImagePanelTest, OnlyTheChosenTemplateHasItsSearchWindowDrawn) {
-  state_.setSnapshot(test::runWithHypotheses());
-  state_.setCursor({0, Stage::kMatch});
-  EXPECT_TRUE(panel_.view().layer(LayerId::kWindows).marks.empty());
-  state_.selectTemplate(3);
-  EXPECT_EQ(panel_.view().layer(LayerId::kWindows).marks.size(), 2u);
-}
-
-TEST_F(ImagePanelTest, ANewCaseIsShownWhole) {
-  ASSERT_TRUE(QTest::qWaitFor([&] { return !panel_.view().imageSize().isEmpty(); }, kPatienceMs));
-  panel_.view().centreOn({10.0, 10.0}, 7.0);
-  state_.setCase(test::loadedExample("bc"));
-  ASSERT_TRUE(QTest::qWaitFor([&] { return !tasks_.isBusy(); }, kPatienceMs));
-  ViewTransform whole;
-  whole.fit(panel_.view().imageSize(), panel_.view().size());
-  EXPECT_EQ(panel_.view().transform(), whole);
-}
-
-TEST_F(ImagePanelTest, MeasuringTellsPixelsAndMillimetresOnTheSurface) {
-  ASSERT_TRUE(QTest::qWaitFor([&] { return !panel_.view().imageSize().isEmpty(); }, kPatienceMs));
+TEST_F(ImagePanelTest, MeasuringTellsPixelsAndMillimetresOnTheSurface_ANewCaseIsShownWhole) {
+  ASSERT_TRUE(wait([&] { return !panel_.view().imageSize().isEmpty(); }));
   MeasureTool& tool = panel_.measure();
   tool.setActive(true);
   const auto drag = [this](const QPointF& from, const QPointF& to) {
@@ -250,6 +210,14 @@ TEST_F(ImagePanelTest, MeasuringTellsPixelsAndMillimetresOnTheSurface) {
   EXPECT_TRUE(tool.text().endsWith(QStringLiteral(" mm")));
   drag({1.0, 1.0}, {4.0, 5.0});
   EXPECT_EQ(tool.text(), QStringLiteral("5.0 px"));
+
+  tool.setActive(false);
+  panel_.view().centreOn({10.0, 10.0}, 7.0);
+  state_.setCase(test::loadedExample("bc"));
+  ASSERT_TRUE(wait([&] { return !tasks_.isBusy(); }));
+  ViewTransform whole;
+  whole.fit(panel_.view().imageSize(), panel_.view().size());
+  EXPECT_EQ(panel_.view().transform(), whole);
 }
 
 TEST_F(ImagePanelTest, APlaceOfTheSceneIsMarkedWhereItProjects) {
@@ -279,7 +247,7 @@ class LayersPanelTest : public ::testing::Test {
   LayersPanel panel_{image_};
 };
 
-TEST_F(LayersPanelTest, ABoxShowsAndHidesItsLayer) {
+TEST_F(LayersPanelTest, ABoxShowsAndHidesItsLayer_AndFollowsItsKey) {
   for (int i = 0; i < kLayerCount; ++i) {
     const auto id = static_cast<LayerId>(i);
     const bool before = image_.style(id).visible;
@@ -288,17 +256,13 @@ TEST_F(LayersPanelTest, ABoxShowsAndHidesItsLayer) {
     QTest::mouseClick(box(id), Qt::LeftButton, Qt::NoModifier, QPoint(8, box(id)->height() / 2));
     EXPECT_EQ(image_.style(id).visible, !before) << i;
   }
-}
-
-TEST_F(LayersPanelTest, LayerKey_UpdatesThePanel) {
   LayerStyle style = image_.style(LayerId::kTruthEdges);
   style.visible = !style.visible;
   style.opacity = 0.25;
   image_.setStyle(LayerId::kTruthEdges, style);
   EXPECT_EQ(box(LayerId::kTruthEdges)->isChecked(), style.visible);
-  QSet<int> values;
-  for (const QSlider* slider : panel_.findChildren<QSlider*>()) values.insert(slider->value());
-  EXPECT_TRUE(values.contains(25));
+  const auto sliders = panel_.findChildren<QSlider*>();
+  EXPECT_GE(std::ranges::count(sliders, 25, &QSlider::value), 1);
 }
 
 TEST_F(LayersPanelTest, ASliderSetsTheOpacityOfOneLayer) {
@@ -311,7 +275,7 @@ TEST_F(LayersPanelTest, ASliderSetsTheOpacityOfOneLayer) {
     EXPECT_EQ(changed.count(), 1);
     int found = 0;
     for (int i = 0; i < kLayerCount; ++i)
-      if (std::abs(image_.style(static_cast<LayerId>(i)).opacity - 0.01 * other) < 1e-12) ++found;
+      found += std::abs(image_.style(static_cast<LayerId>(i)).opacity - 0.01 * other) < 1e-12;
     EXPECT_EQ(found, 1);
     slider->setValue(99);
   }

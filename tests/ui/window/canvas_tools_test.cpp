@@ -40,6 +40,11 @@ class CanvasToolsTest : public test::SharedWindowTest {
     EXPECT_TRUE(project(window_.state().currentCase()->source.camera, pose * middle(), pixel));
     return {pixel.x(), pixel.y()};
   }
+  /// Begins to nudge; where the gizmo then is on the widget.
+  QPointF beginNudging() {
+    QTest::keyClick(&window_, Qt::Key_N);
+    return view().transform().toWidget(middleAt(edited().camera_from_station_seed));
+  }
   /// On the widget, with the left button.
   void drag(const QPointF& from, const QPointF& to) {
     const auto send = [this](QEvent::Type type, const QPointF& at, Qt::MouseButton button,
@@ -55,15 +60,17 @@ class CanvasToolsTest : public test::SharedWindowTest {
   }
 };
 
-/// The wheel over a field that slid under the pointer.
-TEST_F(CanvasToolsTest, WheelOverASpinBoxWithoutFocusEditsNothing) {
+/// The wheel over a field that slid under the pointer gave it the focus, and with it changed it.
+TEST_F(CanvasToolsTest, WheelOverASpinBoxWithoutFocus_NeitherEditsNorFocusesIt) {
   window_.workspaces().reveal(QStringLiteral("pose"));
   view().setFocus();
   auto& box = find<QDoubleSpinBox>("moveY");
+  EXPECT_EQ(box.focusPolicy(), Qt::StrongFocus);
   QWheelEvent event({5.0, 5.0}, box.mapToGlobal(QPoint(5, 5)), {}, {0, -120}, Qt::NoButton,
                     Qt::NoModifier, Qt::NoScrollPhase, false);
   QCoreApplication::sendEvent(&box, &event);
   EXPECT_EQ(box.value(), 0.0);
+  EXPECT_FALSE(box.hasFocus());
   EXPECT_FALSE(window_.state().nudgedPose());
   for (QSpinBox* each : window_.findChildren<QSpinBox*>()) {
     const int before = each->value();
@@ -88,10 +95,8 @@ TEST_F(CanvasToolsTest, CtrlZInASpinBoxIsTheSessionsUndo) {
 }
 
 TEST_F(CanvasToolsTest, GizmoDragMovesTheSeedWithThePointerAsOneEdit) {
-  const Pose seed = edited().camera_from_station_seed;
-  QTest::keyClick(&window_, Qt::Key_N);
+  const QPointF from = beginNudging();
   ASSERT_TRUE(action("nudgeSeed").isChecked());
-  const QPointF from = view().transform().toWidget(middleAt(seed));
   const QPointF to = from + QPointF(37.0, -21.0);
   drag(from, to);
   ASSERT_TRUE(window_.state().nudgedPose());
@@ -106,8 +111,7 @@ TEST_F(CanvasToolsTest, GizmoDragMovesTheSeedWithThePointerAsOneEdit) {
 
 TEST_F(CanvasToolsTest, GizmoRingRollsAndWheelChangesTheDistance) {
   const Pose seed = edited().camera_from_station_seed;
-  QTest::keyClick(&window_, Qt::Key_N);
-  const QPointF centre = view().transform().toWidget(middleAt(seed));
+  const QPointF centre = beginNudging();
   const double angle = 0.3;
   drag(centre + NudgeGizmo::kRing * QPointF(1.0, 0.0),
        centre + NudgeGizmo::kRing * QPointF(std::cos(angle), std::sin(angle)));
@@ -124,12 +128,10 @@ TEST_F(CanvasToolsTest, GizmoRingRollsAndWheelChangesTheDistance) {
 
 TEST_F(CanvasToolsTest, GizmoTilt_TurnsAboutTheImagesAxesAndShowsTheOffset) {
   const Pose seed = edited().camera_from_station_seed;
-  QTest::keyClick(&window_, Qt::Key_N);
+  const QPointF handle = beginNudging() + QPointF(0.0, NudgeGizmo::kRing + NudgeGizmo::kHandle);
   auto& gizmo = *window_.findChild<NudgeGizmo*>();
   EXPECT_EQ(gizmo.offsetText().toStdString(),
             "From the seed: x 0.00, y 0.00, z 0.00 mm; tilt 0.00, 0.00 deg, roll 0.00 deg.");
-  const QPointF handle = view().transform().toWidget(middleAt(seed)) +
-                         QPointF(0.0, NudgeGizmo::kRing + NudgeGizmo::kHandle);
   drag(handle, handle + QPointF(0.1 * NudgeGizmo::kRing, 0.0));
   const Pose tilted = window_.state().nudgedPose().value();
   const Eigen::AngleAxisd turn(tilted.rotation * seed.rotation.conjugate());
@@ -192,10 +194,10 @@ TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
 
 TEST_F(CanvasToolsTest, HistoryListsEditsAndGoesToOne) {
   auto& list = find<QListWidget>("history");
-  moveSeed(0.01);
-  ASSERT_TRUE(rests());
-  moveSeed(0.01);
-  ASSERT_TRUE(rests());
+  for (int i = 0; i < 2; ++i) {
+    moveSeed(0.01);
+    ASSERT_TRUE(rests());
+  }
   ASSERT_EQ(list.count(), 3);
   EXPECT_EQ(list.currentRow(), 2);
   list.setCurrentRow(0);
@@ -224,8 +226,15 @@ class RunOnCanvasTest : public test::WindowTest {
   ImageView& view_ = window_.image().view();
 };
 
-TEST_F(RunOnCanvasTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
+TEST_F(RunOnCanvasTest, AClickRaisesTheInspector_AnEarlierRunIsComparedSideBySide) {
   openRun();
+  window_.workspaces().show(Workspace::kDiagnose);
+  window_.workspaces().reveal(QStringLiteral("iterations"));
+  QCoreApplication::processEvents();
+  Q_EMIT view_.itemClicked(LayerId::kMatches, 0);
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(window_.dock(QStringLiteral("inspector"))->visibleRegion().isEmpty());
+  window_.workspaces().show(Workspace::kRun);
   const std::string first = window_.document().session().runs[0].digest;
   moveSeed(0.002);
   ASSERT_TRUE(rests());
@@ -244,6 +253,7 @@ TEST_F(RunOnCanvasTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
   auto& compare = *window_.findChild<CompareView*>();
   compare.showRun(window_.document().session().runs[1].digest);
   EXPECT_TRUE(compare.isVisible());
+  EXPECT_TRUE(test::has(compare.choices().front(), "Run of ")) << "what is compared first";
   ASSERT_TRUE(wait([&] { return !compare.view().layer(LayerId::kIterationEdges).empty(); }));
   ASSERT_EQ(compare.difference().size(), 1) << "no option differs";
   EXPECT_TRUE(test::has(compare.difference()[0], " px from the shown run"));
@@ -256,16 +266,6 @@ TEST_F(RunOnCanvasTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
   EXPECT_LT((centreOf(compare.view()) - centreOf(view_)).manhattanLength(), 1.0);
   Q_EMIT view_.cursorMoved({40.0, 50.0});
   EXPECT_EQ(compare.view().linkedCursor(), QPointF(40.0, 50.0));
-}
-
-TEST_F(RunOnCanvasTest, AClickOnATemplateRaisesTheMatchInspector) {
-  openRun();
-  window_.workspaces().show(Workspace::kDiagnose);
-  window_.workspaces().reveal(QStringLiteral("iterations"));
-  QCoreApplication::processEvents();
-  Q_EMIT view_.itemClicked(LayerId::kMatches, 0);
-  QCoreApplication::processEvents();
-  EXPECT_FALSE(window_.dock(QStringLiteral("inspector"))->visibleRegion().isEmpty());
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/change_input.h"
 
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 
 #include "tests/ui/window_test.h"
@@ -21,12 +19,14 @@ class ChangeInputTest : public test::SharedWindowTest {
   const sessions::SessionCase& shown() {
     return *window_.document().session().findCase(window_.cases().caseId().toStdString());
   }
+  void change(InputKind kind, const std::filesystem::path& file, const char* unit = "") {
+    window_.cases().changeInput(window_.cases().caseId(), kind, file, unit);
+  }
 };
 
 TEST_F(ChangeInputTest, WrongUnit_IsSaidBeforeTheRunAndPutRight) {
   ASSERT_TRUE(wait([&] { return verdict().head == QStringLiteral("Ready to run."); }));
-  window_.cases().changeInput(window_.cases().caseId(), InputKind::kMesh,
-                              shown().parts.front().source.mesh, "mm");
+  change(InputKind::kMesh, shown().parts.front().source.mesh, "mm");
   ASSERT_TRUE(wait([&] { return verdict().head == QStringLiteral("Not ready to run."); }))
       << verdict().head.toStdString();
   EXPECT_EQ(verdict().step, Step::kChangeInput);
@@ -38,14 +38,12 @@ TEST_F(ChangeInputTest, WrongUnit_IsSaidBeforeTheRunAndPutRight) {
 }
 
 TEST_F(ChangeInputTest, AnotherCamera_IsTakenAndNamesItsMisfit) {
-  const auto file = folder_.path() / "camera.json";
   nlohmann::ordered_json camera = {{"format", "boresight-camera"}, {"version", 1}};
   Camera small = shown().camera;
   small.width = 640;
   small.height = 480;
   camera.update(sessions::toJson(small));
-  std::ofstream(file) << camera.dump();
-  window_.cases().changeInput(window_.cases().caseId(), InputKind::kCamera, file, "");
+  change(InputKind::kCamera, folder_.write("camera.json", camera.dump()));
   ASSERT_TRUE(wait([&] { return verdict().head == QStringLiteral("Not ready to run."); }));
   EXPECT_EQ(verdict().sentence,
             QStringLiteral("The camera is for 640 x 480 px, the image is 512 x 512 px."));
@@ -54,9 +52,7 @@ TEST_F(ChangeInputTest, AnotherCamera_IsTakenAndNamesItsMisfit) {
 
 TEST_F(ChangeInputTest, UnreadableFile_ChangesNothing) {
   const auto before = window_.document().session();
-  const auto file = folder_.path() / "no.json";
-  std::ofstream(file) << "{";
-  window_.cases().changeInput(window_.cases().caseId(), InputKind::kSeed, file, "");
+  change(InputKind::kSeed, folder_.write("no.json", "{"));
   ASSERT_TRUE(wait([&] { return window_.lastMessage().contains(QLatin1String("no.json")); }));
   EXPECT_TRUE(window_.document().session() == before);
 }

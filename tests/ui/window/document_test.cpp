@@ -5,6 +5,7 @@
 
 #include <QSignalSpy>
 
+#include "tests/ui/window/desktop.h"
 #include "tests/ui/window_test.h"
 
 namespace boresight::ui {
@@ -40,35 +41,6 @@ TEST_F(DocumentTest, EditsAreUndoneAndRedone) {
   EXPECT_FALSE(document.redo());
 }
 
-TEST_F(DocumentTest, SavedSession_IsReadBack) {
-  {
-    Document document;
-    ASSERT_TRUE(document.create(file_, exampleSession()));
-    ASSERT_TRUE(document.edit(withoutFirst(exampleSession()), QStringLiteral("Remove a case")));
-    ASSERT_TRUE(document.save());
-    EXPECT_FALSE(document.isModified());
-  }
-  Document again;
-  ASSERT_TRUE(again.open(file_));
-  EXPECT_EQ(again.recovery(), nullptr);
-  EXPECT_EQ(again.session(), withoutFirst(exampleSession()));
-}
-
-TEST_F(DocumentTest, UnsavedEdits_AreOfferedForRecovery) {
-  {
-    Document document;
-    ASSERT_TRUE(document.create(file_, exampleSession()));
-    ASSERT_TRUE(document.edit(withoutFirst(exampleSession()), QStringLiteral("Remove a case")));
-  }
-  Document again;
-  ASSERT_TRUE(again.open(file_));
-  ASSERT_NE(again.recovery(), nullptr);
-  EXPECT_EQ((*again.recovery())->edits.size(), 1u);
-  ASSERT_TRUE(again.acceptRecovery());
-  EXPECT_EQ(again.session(), withoutFirst(exampleSession()));
-  EXPECT_TRUE(again.isModified());
-}
-
 TEST_F(DocumentTest, SecondProgram_OpensReadOnly) {
   Document first;
   ASSERT_TRUE(first.create(file_, exampleSession()));
@@ -92,19 +64,8 @@ TEST_F(DocumentTest, UnreadableSession_IsReportedInOneSentence) {
   EXPECT_FALSE(document.undo());
 }
 
-/// With a folder of its own for sessions without a name: tests run side by side.
 class UntitledDocument : public ::testing::Test {
- protected:
-  UntitledDocument() {
-    QStandardPaths::setTestModeEnabled(false);
-    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(data_.path().string()));
-  }
-  ~UntitledDocument() override {
-    qunsetenv("XDG_DATA_HOME");
-    QStandardPaths::setTestModeEnabled(true);
-  }
-
-  test::TemporaryFolder data_;
+  const test::OwnDataFolder data_;
 };
 
 TEST_F(UntitledDocument, IsOfferedUntilItIsDiscarded) {
@@ -114,8 +75,7 @@ TEST_F(UntitledDocument, IsOfferedUntilItIsDiscarded) {
   const std::filesystem::path file = document.file();
   EXPECT_FALSE(Document::leftUntitled().has_value()) << "another program has it open";
   document.close();
-  ASSERT_TRUE(Document::leftUntitled().has_value());
-  EXPECT_EQ(*Document::leftUntitled(), file);
+  EXPECT_EQ(Document::leftUntitled(), file);
   ASSERT_TRUE(document.open(file));
   EXPECT_TRUE(document.isUntitled());
   document.discardUntitled();
@@ -125,25 +85,20 @@ TEST_F(UntitledDocument, IsOfferedUntilItIsDiscarded) {
     ADD_FAILURE() << entry.path() << " is left";
 }
 
-TEST_F(UntitledDocument, GivenANameItIsNotOfferedAgain) {
+TEST_F(UntitledDocument, GivenANameItIsNotOfferedAgainAndNeverDiscarded) {
   const test::TemporaryFolder folder;
+  const auto named = folder.path() / "named.boresight.json";
   Document document;
   ASSERT_TRUE(document.createUntitled(exampleSession()));
-  ASSERT_TRUE(document.saveAs(folder.path() / "named.boresight.json"));
+  ASSERT_TRUE(document.saveAs(named));
   EXPECT_FALSE(document.isUntitled());
   EXPECT_TRUE(std::filesystem::is_empty(Document::untitledFolder()));
   document.close();
-  ASSERT_TRUE(document.open(folder.path() / "named.boresight.json"));
+  ASSERT_TRUE(document.open(named));
   EXPECT_EQ(document.session().cases.size(), exampleSession().cases.size());
-}
-
-TEST_F(UntitledDocument, NamedSession_IsNeverDiscarded) {
-  const test::TemporaryFolder folder;
-  Document document;
-  ASSERT_TRUE(document.create(folder.path() / "named.boresight.json", sessions::Session()));
   document.discardUntitled();
   EXPECT_TRUE(document.isOpen());
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "named.boresight.json"));
+  EXPECT_TRUE(std::filesystem::exists(named));
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/session_files.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fstream>
 
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
@@ -12,7 +11,7 @@
 namespace boresight::ui {
 namespace {
 
-TEST(DroppedFiles, FourFilesMakeACase) {
+TEST(DroppedFiles, FourFilesMakeACase_AlsoInTwoDrops) {
   const std::filesystem::path folder = test::exampleFolder() / "bc";
   const DroppedFiles dropped =
       classify({folder / "model.ply", folder / "seed.json", folder / "image.png",
@@ -26,15 +25,10 @@ TEST(DroppedFiles, FourFilesMakeACase) {
   EXPECT_EQ(dropped.one.truth, folder / "truth.json");
   ASSERT_EQ(dropped.one.parts.size(), 1u);
   EXPECT_EQ(dropped.one.parts[0].mesh, folder / "model.ply");
-}
-
-TEST(DroppedFiles, ALaterDropCompletesAnEarlierOne) {
-  const std::filesystem::path folder = test::exampleFolder() / "bc";
   const DroppedFiles first = classify({folder / "image.png", folder / "model.ply"});
   EXPECT_FALSE(first.isCase());
   EXPECT_EQ(first.missing(), "a camera (json) and a seed pose (json)");
-  const DroppedFiles second = classify({folder / "camera.json", folder / "seed.json"}, first);
-  EXPECT_TRUE(second.isCase());
+  EXPECT_TRUE(classify({folder / "camera.json", folder / "seed.json"}, first).isCase());
 }
 
 TEST(DroppedFiles, AnImageWithALabelBringsItsCamera) {
@@ -83,38 +77,37 @@ TEST(DroppedFiles, ALabelWithoutItsPixelsIsAProblemAndNoImage) {
                                   "OBJECT = IMAGE\r\nEND_OBJECT = IMAGE\r\nEND\r\n");
   const DroppedFiles dropped = classify({label, test::exampleFolder() / "os/model.ply"});
   ASSERT_EQ(dropped.problems.size(), 1u);
-  EXPECT_NE(dropped.problems[0].find("the file of its pixels, 'det.dat', is not in its folder"),
-            std::string::npos);
+  EXPECT_THAT(dropped.problems[0],
+              testing::HasSubstr("the file of its pixels, 'det.dat', is not in its folder"));
   EXPECT_EQ(dropped.missing(), "an image, a camera (json) and a seed pose (json)");
 }
 
-TEST(DroppedFiles, JsonIsToldByItsFormat) {
+TEST(DroppedFiles, JsonIsToldByItsFormat_ResultsByTheirExtension) {
   const DroppedFiles dropped = classify({test::exampleFolder() / "dataset.json"});
   EXPECT_TRUE(dropped.dataset.has_value());
   EXPECT_FALSE(dropped.session.has_value());
-}
-
-TEST(DroppedFiles, ResultsAreToldByTheirExtension) {
   EXPECT_EQ(classify({"/data/Results.SQLite"}).results,
             std::filesystem::path("/data/Results.SQLite"));
 }
 
 TEST(DroppedFiles, UnknownFile_IsReportedByName) {
   const test::TemporaryFolder folder;
-  std::ofstream(folder.path() / "odd.json") << R"({"format": "boresight-points", "version": 1})";
-  std::ofstream(folder.path() / "broken.json") << "{";
-  std::ofstream(folder.path() / "notes.txt") << "hello";
-  const DroppedFiles dropped = classify(
-      {folder.path() / "odd.json", folder.path() / "broken.json", folder.path() / "notes.txt"});
-  EXPECT_NE(classify({folder.path() / "sol12.zip"}).problems.at(0).find("unpack it"),
-            std::string::npos);
-  ASSERT_EQ(dropped.problems.size(), 3u);
-  EXPECT_NE(dropped.problems[0].find("odd.json"), std::string::npos);
-  EXPECT_NE(dropped.problems[1].find("broken.json"), std::string::npos);
-  EXPECT_NE(dropped.problems[2].find("notes.txt"), std::string::npos);
-  std::ofstream(folder.path() / "copied.json") << R"({"fx": 1200.0})";
-  EXPECT_NE(classify({folder.path() / "copied.json"}).problems.at(0).find("boresight-camera"),
-            std::string::npos);
+  const struct {
+    const char* name;
+    const char* text;
+    const char* problem;
+  } files[] = {{"odd.json", R"({"format": "boresight-points", "version": 1})", "odd.json"},
+               {"broken.json", "{", "broken.json"},
+               {"notes.txt", "hello", "notes.txt"},
+               {"sol12.zip", "", "unpack it"},
+               {"copied.json", R"({"fx": 1200.0})", "boresight-camera"}};
+  std::vector<std::filesystem::path> paths;
+  for (const auto& file : files)
+    paths.push_back(folder.write(file.name, std::string_view(file.text)));
+  const DroppedFiles dropped = classify(paths);
+  ASSERT_EQ(dropped.problems.size(), std::size(files));
+  for (std::size_t i = 0; i < std::size(files); ++i)
+    EXPECT_THAT(dropped.problems[i], testing::HasSubstr(files[i].problem));
 }
 
 }  // namespace

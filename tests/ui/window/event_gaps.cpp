@@ -110,56 +110,49 @@ class Walk {
   Walk(EventClock& clock, ui::MainWindow& window) : clock_(clock), window_(window) {}
 
   void open(const fs::path& file, const sessions::Session& session) {
-    window_.document().create(file, session);
-    waitFor([this] { return window_.state().currentCase() != nullptr && rests(); });
+    measure("opening", [&] {
+      window_.document().create(file, session);
+      waitFor([this] { return window_.state().currentCase() != nullptr; });
+    });
     const auto& image = window_.state().currentCase()->image;
     std::printf("%s, %d x %d\n", session.cases.front()->id.c_str(), image.width, image.height);
-    print(clock_, "opening");
   }
 
-  void run() {
-    window_.cases().advance(sessions::StepUntil::kEnd);
-    waitFor([this] { return rests(); });
-    print(clock_, "running");
+  void run(const char* what = "running") {
+    measure(what, [this] { window_.cases().advance(sessions::StepUntil::kEnd); });
   }
 
   void runInFrontOf(const QString& dock) {
     window_.workspaces().reveal(dock);
-    waitFor([this] { return rests(); });
-    QCoreApplication::processEvents();
-    clock_.begin();
-    window_.cases().advance(sessions::StepUntil::kEnd);
-    waitFor([this] { return rests(); });
-    print(clock_, qPrintable(QStringLiteral("running with %1 in front").arg(dock)));
+    run(qPrintable(QStringLiteral("running with %1 in front").arg(dock)));
   }
 
   void scrub() {
-    const int count = static_cast<int>(window_.state().snapshot()->iterations.size());
-    for (int i = -1; i < count; ++i) {
-      // By an event, as from a key.
-      QTimer::singleShot(0, &window_, [this, i] {
-        window_.state().setCursor({i, Stage::kFinished});
-      });
-      QCoreApplication::processEvents();
-      waitFor([this] { return rests(); });
-    }
-    print(clock_, "going through the iterations");
+    measure("going through the iterations", [this] {
+      const int count = static_cast<int>(window_.state().snapshot()->iterations.size());
+      for (int i = -1; i < count; ++i) {
+        // By an event, as from a key.
+        QTimer::singleShot(0, &window_, [this, i] {
+          window_.state().setCursor({i, Stage::kFinished});
+        });
+        QCoreApplication::processEvents();
+        waitFor([this] { return rests(); });
+      }
+    });
   }
 
   /// All layers of the first iteration, which has templates and matches: shown, then zoomed.
   void zoom() {
     window_.state().setCursor({0, Stage::kFinished});
-    waitFor([this] { return rests(); });
-    clock_.begin();
     ui::ImagePanel& image = window_.image();
-    for (int i = 0; i < ui::kLayerCount; ++i) {
-      const auto id = static_cast<ui::LayerId>(i);
-      ui::LayerStyle style = image.style(id);
-      style.visible = true;
-      image.setStyle(id, style);
-    }
-    waitFor([this] { return rests(); });
-    print(clock_, "showing all layers");
+    measure("showing all layers", [&] {
+      for (int i = 0; i < ui::kLayerCount; ++i) {
+        const auto id = static_cast<ui::LayerId>(i);
+        ui::LayerStyle style = image.style(id);
+        style.visible = true;
+        image.setStyle(id, style);
+      }
+    });
     for (int i = 0; i < 24; ++i) {
       const QPointF place(0.4 * image.view().width(), 0.4 * image.view().height());
       const QPoint turn(0, i < 12 ? 120 : -120);
@@ -184,11 +177,10 @@ class Walk {
       session = sessions::withCase(session, more);
     }
     window_.document().edit(session, QStringLiteral("Add cases"));
-    waitFor([this] { return rests(); });
-    clock_.begin();
-    window_.cases().runAll(ids);
-    waitFor([this] { return !window_.cases().batch() && rests(); });
-    print(clock_, "running a batch of 4");
+    measure("running a batch of 4", [&] {
+      window_.cases().runAll(ids);
+      waitFor([this] { return !window_.cases().batch(); });
+    });
   }
 
   void stop() {
@@ -213,6 +205,15 @@ class Walk {
  private:
   bool working() { return window_.run().state() == ui::RunState::kWorking; }
   bool rests() { return !window_.tasks().isBusy() && !working(); }
+  /// From a window at rest to a window at rest.
+  void measure(const char* what, const std::function<void()>& act) {
+    waitFor([this] { return rests(); });
+    QCoreApplication::processEvents();
+    clock_.begin();
+    act();
+    waitFor([this] { return rests(); });
+    print(clock_, what);
+  }
 
   EventClock& clock_;
   ui::MainWindow& window_;

@@ -48,9 +48,6 @@ std::string lastConfirmed(const std::filesystem::path& file, int round, Random& 
                 {QString::fromStdString(file.string()), QString::number(round)});
   EXPECT_TRUE(program.waitForStarted(kPatienceMs));
   std::string confirmed;
-  const auto readLines = [&] {
-    while (program.canReadLine()) confirmed = program.readLine().trimmed().toStdString();
-  };
   int left = static_cast<int>(random.below(test::allCases() ? 40 : 12));
   while (left > 0 && program.state() == QProcess::Running) {
     if (!program.canReadLine()) program.waitForReadyRead(kPatienceMs);
@@ -63,7 +60,7 @@ std::string lastConfirmed(const std::filesystem::path& file, int round, Random& 
   EXPECT_EQ(program.state(), QProcess::Running) << "it ended by itself";
   program.kill();  // SIGKILL
   EXPECT_TRUE(program.waitForFinished(kPatienceMs));
-  readLines();
+  while (program.canReadLine()) confirmed = program.readLine().trimmed().toStdString();
   EXPECT_EQ(program.exitStatus(), QProcess::CrashExit);
   return confirmed;
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -70,9 +69,7 @@ TEST_F(LayoutTest, ArrangePanels_RestoresTheWorkspace) {
   window.workspaces().show(Workspace::kRun);
   window.dock(QStringLiteral("scene"))->hide();
   window.dock(QStringLiteral("result"))->setFloating(true);
-  auto* arrange = window.findChild<QAction*>(QStringLiteral("arrange"));
-  ASSERT_NE(arrange, nullptr);
-  arrange->trigger();
+  window.findChild<QAction*>(QStringLiteral("arrange"))->trigger();
   QApplication::processEvents();
   EXPECT_FALSE(window.dock(QStringLiteral("scene"))->isHidden());
   EXPECT_FALSE(window.dock(QStringLiteral("result"))->isFloating());
@@ -91,21 +88,13 @@ TEST_F(LayoutTest, FirstStart_FitsTheScreen) {
 }
 
 TEST_F(LayoutTest, RecentFilesAreTheNewestFirstWithoutThoseThatAreGone) {
-  const auto make = [this](const char* name) {
-    const std::filesystem::path file = folder_.path() / name;
-    std::ofstream(file) << "{}";
-    return file;
-  };
-  noteRecentFile(make("a"));
-  noteRecentFile(make("b"));
-  noteRecentFile(make("a"));
-  noteRecentFile(make("c"));
+  for (const char* name : {"a", "b", "a", "c"}) noteRecentFile(folder_.write(name, "{}"));
   std::filesystem::remove(folder_.path() / "b");
   const QStringList files = recentFiles();
   ASSERT_EQ(files.size(), 2);
   EXPECT_TRUE(files[0].endsWith(QLatin1String("/c")));
   EXPECT_TRUE(files[1].endsWith(QLatin1String("/a")));
-  for (int i = 0; i < 20; ++i) noteRecentFile(make(std::to_string(i).c_str()));
+  for (int i = 0; i < 20; ++i) noteRecentFile(folder_.write(std::to_string(i), "{}"));
   EXPECT_EQ(recentFiles().size(), 10);
 }
 
@@ -140,11 +129,10 @@ TEST_F(LayoutTest, Picture_ShowsJournalledEditsAndWritesNothingElse) {
 }
 
 TEST_F(LayoutTest, APictureOfAFileThatIsNoSessionSaysWhy) {
-  std::ofstream(folder_.path() / "no.json") << "{";
   MainWindow window;
   window.setQuiet(true);
-  const QString why = openForPictures(window, folder_.path() / "no.json", folder_.path());
-  EXPECT_TRUE(test::has(why, "no.json"));
+  const auto file = folder_.write("no.json", "{");
+  EXPECT_TRUE(test::has(openForPictures(window, file, folder_.path()), "no.json"));
 }
 
 }  // namespace

@@ -22,9 +22,8 @@ class LevelsEditingTest : public test::WindowTest {
     files.id = "os";
     files.image = deepImage();
     files.camera = station / "camera.json";
-    files.parts.resize(1);
-    files.parts[0].mesh = station / "model.ply";
-    files.parts[0].mesh_unit = "m";
+    files.parts.emplace_back().mesh = station / "model.ply";
+    files.parts.front().mesh_unit = "m";
     files.seed = station / "seed.json";
     open(test::withoutSearch(withCase({}, sessions::makeCase(files).made)));
   }
@@ -72,12 +71,11 @@ TEST_F(LevelsEditingTest, ADeepImageIsShownStretchedAndTheCoresViewIsNot) {
   const int x = index % original_.width, y = index / original_.width;
   EXPECT_LE(core.view().at(x, y), 16) << "12 of 16 bits";
   EXPECT_EQ(shownGray(x, y), 255);
-  QTest::keyClick(&window_, Qt::Key_C);
-  ASSERT_TRUE(wait([&] { return resting(); }));
-  EXPECT_EQ(shownGray(x, y), core.view().at(x, y));
-  QTest::keyClick(&window_, Qt::Key_C);
-  ASSERT_TRUE(wait([&] { return resting(); }));
-  EXPECT_EQ(shownGray(x, y), 255);
+  for (const int expected : {static_cast<int>(core.view().at(x, y)), 255}) {
+    QTest::keyClick(&window_, Qt::Key_C);
+    ASSERT_TRUE(rests());
+    EXPECT_EQ(shownGray(x, y), expected);
+  }
   auto& place = find<QLabel>("place");
   const QPoint at = window_.image().view().transform().toWidget(QPointF(x, y)).toPoint();
   QTest::mouseMove(&window_.image().view(), at);
@@ -85,12 +83,12 @@ TEST_F(LevelsEditingTest, ADeepImageIsShownStretchedAndTheCoresViewIsNot) {
   EXPECT_TRUE(test::has(place.text(), "(sample "));
 }
 
-TEST_F(LevelsEditingTest, TheDisplaysLevelsChangeThePictureAndNothingElse) {
+TEST_F(LevelsEditingTest, TheDisplaysLevelsChangeThePictureAndNothingElse_NorDoTooFewBits) {
   const std::string digest = sessions::inputsDigest(edited());
   const auto before = window_.state().currentCase();
   find<QSpinBox>("displayBlack").setValue(1000);
   find<QSpinBox>("displayWhite").setValue(1100);
-  ASSERT_TRUE(wait([&] { return resting(); }));
+  ASSERT_TRUE(rests());
   EXPECT_EQ(display().levels(), (sessions::GrayLevels{1000, 1100}));
   const QImage& picture = display().picture();
   for (int y = 0; y < picture.height(); y += 37)
@@ -102,6 +100,10 @@ TEST_F(LevelsEditingTest, TheDisplaysLevelsChangeThePictureAndNothingElse) {
   EXPECT_FALSE(window_.document().canUndo());
   EXPECT_EQ(window_.state().currentCase(), before);
   EXPECT_EQ(sessions::inputsDigest(edited()), digest);
+  apply(8);
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(test::has(window_.lastMessage(), "more than 8 bits"));
+  EXPECT_FALSE(window_.document().isModified()) << "too few bits are refused";
 }
 
 TEST_F(LevelsEditingTest, TheConversionIsAnEditThatMakesRunsStale) {
@@ -128,12 +130,12 @@ TEST_F(LevelsEditingTest, TheConversionIsAnEditThatMakesRunsStale) {
 TEST_F(LevelsEditingTest, AsDisplayed_CopiesTheDisplayLevelsToTheConversion) {
   find<QSpinBox>("displayBlack").setValue(160);
   find<QSpinBox>("displayWhite").setValue(3000);
-  ASSERT_TRUE(wait([&] { return resting(); }));
+  ASSERT_TRUE(rests());
   QTest::mouseClick(&find<QPushButton>("conversionFromDisplay"), Qt::LeftButton);
   QTest::mouseClick(&find<QPushButton>("applyConversion"), Qt::LeftButton);
   ASSERT_TRUE(wait([&] { return resting() && edited().image.eight_bit.levels; }));
   EXPECT_EQ(*edited().image.eight_bit.levels, (sessions::GrayLevels{160, 3000}));
-  ASSERT_TRUE(wait([&] { return resting(); }));
+  ASSERT_TRUE(rests());
   EXPECT_EQ(display().corePicture(), display().picture());
 }
 
@@ -161,13 +163,6 @@ TEST_F(LabelledLevelsTest, TheBitsOfTheLabelAreShownAndNotStatedAgain) {
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(wait([&] { return resting() && !edited().image.eight_bit.bit_depth; }));
   EXPECT_EQ(find<QSpinBox>("conversionBits").value(), 12);
-}
-
-TEST_F(LevelsEditingTest, TooFewBitsAreRefusedInASentence) {
-  apply(8);
-  ASSERT_TRUE(wait([&] { return resting(); }));
-  EXPECT_TRUE(test::has(window_.lastMessage(), "more than 8 bits"));
-  EXPECT_FALSE(window_.document().isModified());
 }
 
 }  // namespace

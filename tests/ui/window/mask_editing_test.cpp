@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ignore mask from the pointer to the run: one window, real events.
+#include <algorithm>
+
 #include "sessions/session/case_run.h"
+#include "tests/ui/window/desktop.h"
 #include "tests/ui/window_test.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
@@ -50,9 +53,13 @@ class MaskEditingTest : public test::SharedWindowTest {
     send(QEvent::MouseMove, to);
     send(QEvent::MouseButtonRelease, to);
   }
-  void click(const QPointF& pixel) {
-    send(QEvent::MouseButtonPress, pixel);
-    send(QEvent::MouseButtonRelease, pixel);
+  void drawPolygon(const std::vector<QPointF>& corners) {
+    QTest::keyClick(&window_, Qt::Key_P, Qt::ShiftModifier);
+    for (const QPointF& corner : corners) {
+      send(QEvent::MouseButtonPress, corner);
+      send(QEvent::MouseButtonRelease, corner);
+    }
+    QTest::keyClick(&view(), Qt::Key_Return);
   }
 
   std::string id_;
@@ -85,17 +92,21 @@ TEST_F(MaskEditingTest, ABrushStrokeIsOneUndoableJournalledEditOfTheMask) {
   EXPECT_TRUE(view().layer(LayerId::kIgnoreMask).bits.empty());
 }
 
-TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
+TEST_F(MaskEditingTest, ARunUsesTheMask_ItsShownIterationStaysAsStaleWhenItIsEdited) {
   openRun(firstSession());
   const std::string before = window_.document().session().runs[0].digest;
-  QTest::keyClick(&window_, Qt::Key_P, Qt::ShiftModifier);
+  window_.state().setCursor({0, Stage::kMatch});
+  window_.state().selectTemplate(2);
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
+  drag({10.0, 10.0}, {20.0, 10.0});
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(window_.state().cursor(), (RunCursor{0, Stage::kMatch})) << "it stays";
+  EXPECT_EQ(window_.state().selectedTemplate(), 2);
+  EXPECT_FALSE(view().layer(LayerId::kSeedEdges).empty());
+  EXPECT_FALSE(window_.cases().staleness().isEmpty());
   const auto& image = window_.state().currentCase()->image;
   const double right = image.width * 0.55, bottom = image.height - 1.0;
-  click({0.0, 0.0});
-  click({right, 0.0});
-  click({right, bottom});
-  click({0.0, bottom});
-  QTest::keyClick(&view(), Qt::Key_Return);
+  drawPolygon({{0.0, 0.0}, {right, 0.0}, {right, bottom}, {0.0, bottom}});
   // At once: the run waits for the mask.
   QTest::keyClick(&window_, Qt::Key_F5);
   EXPECT_TRUE(window_.state().snapshot()) << "the run of before is still shown";
@@ -104,22 +115,8 @@ TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
   EXPECT_NE(session.runs[1].digest, before);
   EXPECT_FALSE(stalenessOf(session.runs[1], session, {}).stale());
   EXPECT_TRUE(stalenessOf(session.runs[0], session, {}).inputs_changed);
-  const sessions::LocalizationTrace headless =
-      sessions::runCase(session, id_, sessions::RecordLevel::kSummary);
-  EXPECT_EQ(session.runs[1].digest, headless.digest);
-}
-
-TEST_F(MaskEditingTest, Edit_KeepsTheShownIteration) {
-  openRun(firstSession());
-  window_.state().setCursor({0, Stage::kMatch});
-  window_.state().selectTemplate(2);
-  QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
-  drag({10.0, 10.0}, {20.0, 10.0});
-  ASSERT_TRUE(settled());
-  EXPECT_EQ(window_.state().cursor(), (RunCursor{0, Stage::kMatch}));
-  EXPECT_EQ(window_.state().selectedTemplate(), 2);
-  EXPECT_FALSE(view().layer(LayerId::kSeedEdges).empty());
-  EXPECT_FALSE(window_.cases().staleness().isEmpty());
+  EXPECT_EQ(session.runs[1].digest,
+            sessions::runCase(session, id_, sessions::RecordLevel::kSummary).digest);
 }
 
 TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
@@ -127,8 +124,8 @@ TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
   QTest::mouseClick(&find<QPushButton>("saturated"), Qt::LeftButton);
   ASSERT_TRUE(settled());
   const auto& value = *window_.state().currentCase();
-  std::int64_t bright = 0;
-  for (const std::uint8_t gray : value.image.pixels) bright += gray >= 200 ? 1 : 0;
+  const auto bright =
+      std::ranges::count_if(value.image.pixels, [](std::uint8_t gray) { return gray >= 200; });
   ASSERT_GT(bright, 0);
   EXPECT_EQ(value.ignore->ignored_count, bright);
   EXPECT_TRUE(
@@ -139,19 +136,13 @@ TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
 }
 
 TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
-  QTest::keyClick(&window_, Qt::Key_P, Qt::ShiftModifier);
-  click({100.0, 100.0});
-  click({300.0, 100.0});
-  click({300.0, 300.0});
-  QTest::keyClick(&view(), Qt::Key_Return);
+  drawPolygon({{100.0, 100.0}, {300.0, 100.0}, {300.0, 300.0}});
   ASSERT_EQ(strokes(id_).size(), 1u);
   auto& list = find<QListWidget>("strokes");
   list.setCurrentRow(0);
-  QTimer::singleShot(0, [] {
-    auto* dialog = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
-    ASSERT_NE(dialog, nullptr);
-    dialog->setTextValue(QStringLiteral("gripper"));
-    dialog->accept();
+  const test::ModalAnswer<QInputDialog> answer([](QInputDialog& dialog) {
+    dialog.setTextValue(QStringLiteral("gripper"));
+    dialog.accept();
   });
   QTest::mouseClick(&find<QPushButton>("nameStroke"), Qt::LeftButton);
   window_.activateWindow();

@@ -16,9 +16,9 @@ class NudgeEditingTest : public test::SharedWindowTest {
   const sessions::SessionCase& edited() { return *window_.document().session().findCase(id_); }
   const std::optional<Pose>& nudged() { return window_.state().nudgedPose(); }
   void nudge(Qt::Key key) {
-    auto* pad = window_.findChild<QLabel*>(QStringLiteral("nudgePad"));
-    pad->setFocus();
-    QTest::keyClick(pad, key);
+    auto& pad = find<QLabel>("nudgePad");
+    pad.setFocus();
+    QTest::keyClick(&pad, key);
   }
   /// Once the views have a case with this seed.
   bool seedIs(const Pose& seed) {
@@ -31,7 +31,6 @@ class NudgeEditingTest : public test::SharedWindowTest {
     return wait([&] { return window_.state().currentCase()->source.id == id && resting(); });
   }
   void undo() { QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier); }
-  void redo() { ASSERT_TRUE(window_.document().redo()); }
 
   std::string id_;
 };
@@ -51,30 +50,32 @@ TEST_F(NudgeEditingTest, EachGestureIsOneEntryThatUndoAndRedoWalkThrough) {
   undo();
   EXPECT_FALSE(nudged());
   EXPECT_FALSE(window_.document().canUndo());
-  redo();
+  ASSERT_TRUE(window_.document().redo());
   EXPECT_EQ(nudged(), first);
-  redo();
+  ASSERT_TRUE(window_.document().redo());
   EXPECT_EQ(nudged(), second);
 }
 
-TEST_F(NudgeEditingTest, DroppingTheNudgedPoseCanBeUndone) {
+TEST_F(NudgeEditingTest, DropGestureUnderWayAndUseAsSeed_AreEachOneUndoStep) {
   nudge(Qt::Key_Right);
   const Pose first = nudged().value();
-  QTest::mouseClick(window_.findChild<QPushButton*>(QStringLiteral("dropNudged")), Qt::LeftButton);
+  QTest::mouseClick(&find<QPushButton>("dropNudged"), Qt::LeftButton);
   EXPECT_FALSE(nudged());
   EXPECT_FALSE(edited().camera_from_station_working);
   undo();
   EXPECT_EQ(nudged(), first);
-}
-
-TEST_F(NudgeEditingTest, Undo_DuringAGesture_RevertsIt) {
-  nudge(Qt::Key_Right);
-  const Pose first = nudged().value();
-  auto* box = window_.findChild<QDoubleSpinBox*>(QStringLiteral("moveX"));
-  box->stepUp();
+  find<QDoubleSpinBox>("moveX").stepUp();
   EXPECT_NE(nudged(), first);
   EXPECT_EQ(edited().camera_from_station_working, first) << "not yet ended";
   undo();
+  EXPECT_EQ(nudged(), first);
+  const Pose seed = edited().camera_from_station_seed;
+  QTest::mouseClick(&find<QPushButton>("useAsSeed"), Qt::LeftButton);
+  EXPECT_EQ(edited().camera_from_station_seed, first);
+  EXPECT_FALSE(nudged());
+  ASSERT_TRUE(seedIs(first));
+  undo();
+  ASSERT_TRUE(seedIs(seed));
   EXPECT_EQ(nudged(), first);
 }
 
@@ -91,34 +92,16 @@ TEST_F(NudgeEditingTest, Nudging_ReloadsNothingAndKeepsRunsCurrent) {
   EXPECT_EQ(nudged(), pose);
 }
 
-TEST_F(NudgeEditingTest, UseAsSeed_IsOneUndoStep) {
-  nudge(Qt::Key_Right);
-  const Pose first = nudged().value();
-  const Pose seed = edited().camera_from_station_seed;
-  QTest::mouseClick(window_.findChild<QPushButton*>(QStringLiteral("useAsSeed")), Qt::LeftButton);
-  EXPECT_EQ(edited().camera_from_station_seed, first);
-  EXPECT_FALSE(nudged());
-  ASSERT_TRUE(seedIs(first));
-  undo();
-  ASSERT_TRUE(seedIs(seed));
-  EXPECT_EQ(nudged(), first);
-}
-
-TEST_F(NudgeEditingTest, NudgedPose_IsRestoredOnOpening) {
-  nudge(Qt::Key_PageUp);
-  const Pose pose = nudged().value();
-  ASSERT_TRUE(window_.document().save());
-  ASSERT_TRUE(reopen());
-  EXPECT_EQ(nudged(), pose);
-}
-
-TEST_F(NudgeEditingTest, NudgedPose_IsStoredPerCase) {
+TEST_F(NudgeEditingTest, NudgedPose_IsStoredPerCaseAndRestoredOnOpening) {
   nudge(Qt::Key_Right);
   const auto pose = nudged();
   const std::string other = window_.document().session().cases[1]->id;
   ASSERT_TRUE(shows(other));
   EXPECT_FALSE(nudged());
   ASSERT_TRUE(shows(id_));
+  EXPECT_EQ(nudged(), pose);
+  ASSERT_TRUE(window_.document().save());
+  ASSERT_TRUE(reopen());
   EXPECT_EQ(nudged(), pose);
 }
 

@@ -68,19 +68,16 @@ class OnboardTest : public test::WindowTest {
     return bytes;
   }
 
-  std::filesystem::path write(const Bytes& bytes) { return folder_.write("run.whsr", bytes); }
-
   void drop(const std::filesystem::path& file) {
     WindowTest::drop(file);
     ASSERT_TRUE(rests());
   }
+  void drop(const Bytes& record) { drop(folder_.write("run.whsr", record)); }
 
   void click(const char* name) {
-    auto* button = window_.findChild<QPushButton*>(QLatin1String(name));
-    ASSERT_NE(button, nullptr);
-    ASSERT_TRUE(button->isEnabled()) << name;
+    ASSERT_TRUE(find<QPushButton>(name).isEnabled()) << name;
     window_.workspaces().reveal(QStringLiteral("onboard"));
-    QTest::mouseClick(button, Qt::LeftButton);
+    QTest::mouseClick(&find<QPushButton>(name), Qt::LeftButton);
     ASSERT_TRUE(rests());
   }
 
@@ -92,7 +89,7 @@ class OnboardTest : public test::WindowTest {
 
 TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   openExample();
-  drop(write(onboardRecord()));
+  drop(onboardRecord());
   ASSERT_TRUE(one().onboard_record);
   ASSERT_NE(window_.onboard().review(), nullptr) << window_.onboard().problem().toStdString();
   EXPECT_TRUE(test::has(label("recordSheet"), "converged"));
@@ -106,8 +103,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   EXPECT_TRUE(window_.document().session().runs.empty()) << "a replay is no run";
 
   click("rerunOnGround");
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1; }));
-  ASSERT_TRUE(rests());
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
   EXPECT_FALSE(window_.state().snapshot()->replayed);
   ASSERT_NE(window_.onboard().comparison(), nullptr);
   EXPECT_EQ(window_.onboard().comparison()->verdict, RunVerdict::kEqual);
@@ -115,11 +111,10 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   EXPECT_EQ(window_.document().session().runs.front().digest,
             window_.onboard().review()->record.end->digest);
 
-  QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier);
-  EXPECT_TRUE(window_.state().snapshot()->replayed);
-  QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier);
-  EXPECT_FALSE(window_.state().snapshot()->replayed);
-
+  for (const bool replayed : {true, false}) {
+    QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier);
+    EXPECT_EQ(window_.state().snapshot()->replayed, replayed);
+  }
   QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier);
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(rests());
@@ -131,7 +126,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
 TEST_F(OnboardTest, WideWindowShowsBothRunsSideBySide) {
   openRun();
   window_.resize(1920, 1080);
-  drop(write(onboardRecord()));
+  drop(onboardRecord());
   window_.workspaces().show(Workspace::kOnboard);
   ASSERT_TRUE(rests());
   auto& canvas = find<QWidget>("compareView");
@@ -139,21 +134,20 @@ TEST_F(OnboardTest, WideWindowShowsBothRunsSideBySide) {
   EXPECT_EQ(find<QComboBox>("compareWith").currentText(), QStringLiteral("Onboard run"));
   const QWidget* frame = canvas.parentWidget()->parentWidget();
   EXPECT_EQ(frame->property("source").toString(), QStringLiteral("onboard"));
-  window_.workspaces().show(Workspace::kReview);
-  EXPECT_FALSE(canvas.isVisible());
-  window_.workspaces().show(Workspace::kOnboard);
-  EXPECT_TRUE(canvas.isVisible());
+  for (const Workspace workspace : {Workspace::kReview, Workspace::kOnboard}) {
+    window_.workspaces().show(workspace);
+    EXPECT_EQ(canvas.isVisible(), workspace == Workspace::kOnboard);
+  }
   window_.resize(1280, 800);
   EXPECT_TRUE(wait([&] { return !canvas.isVisible(); }))
-      << "there the two are blinked; " << window_.width() << " px wide, at least "
-      << window_.minimumSizeHint().width();
+      << "there the two are blinked; " << window_.width() << " px wide";
 }
 
 TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
   openRun();
   Bytes bytes = onboardRecord();
   alterTemplate(bytes);
-  drop(write(bytes));
+  drop(bytes);
   ASSERT_NE(window_.onboard().comparison(), nullptr);
   const auto& found = *window_.onboard().comparison();
   EXPECT_EQ(found.verdict, RunVerdict::kDifferent);
@@ -169,17 +163,17 @@ TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
 TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
   openRun();
   const Bytes pixels = compressed(window_.state().currentCase()->problem().image, 90);
-  drop(write(onboardRecord(&pixels)));
+  drop(onboardRecord(&pixels));
   ASSERT_NE(window_.onboard().comparison(), nullptr);
   const auto& found = *window_.onboard().comparison();
   EXPECT_EQ(found.verdict, RunVerdict::kWithinLimits) << sessions::comparisonText(found);
   EXPECT_EQ(found.first->part, RunPart::kPixels);
   EXPECT_TRUE(test::has(label("verdict"), "Within the limits"));
   EXPECT_TRUE(test::has(label("recordRemarks"), "pixels differ from this case"));
-  const auto* table = window_.findChild<QTableWidget*>(QStringLiteral("comparison"));
-  ASSERT_EQ(table->rowCount(), static_cast<int>(found.iterations.size()) + 1);
-  EXPECT_TRUE(test::has(table->item(0, 1)->text(), " of "));
-  EXPECT_TRUE(test::has(table->item(table->rowCount() - 1, 1)->text(), "sigmas"));
+  const auto& table = find<QTableWidget>("comparison");
+  ASSERT_EQ(table.rowCount(), static_cast<int>(found.iterations.size()) + 1);
+  EXPECT_TRUE(test::has(table.item(0, 1)->text(), " of "));
+  EXPECT_TRUE(test::has(table.item(table.rowCount() - 1, 1)->text(), "sigmas"));
 }
 
 TEST_F(OnboardTest, UnreadableRecord_IsReported) {
@@ -188,8 +182,7 @@ TEST_F(OnboardTest, UnreadableRecord_IsReported) {
   EXPECT_TRUE(test::has(window_.lastMessage(), "is not an onboard record"));
   EXPECT_FALSE(one().onboard_record);
   const Bytes bytes = onboardRecord();
-  const auto file = write(bytes);
-  drop(file);
+  drop(bytes);
   ASSERT_NE(window_.onboard().review(), nullptr);
   click("showOnboard");
   // A record that was cut is shown as far as it goes.

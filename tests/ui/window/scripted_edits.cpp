@@ -24,26 +24,14 @@ class Operator {
 
   /// One action of a person; false when there was nothing to do.
   bool act() {
-    switch (random_.below(15)) {
-      case 0:
-        return window_.document().undo();
-      case 1:
-        return window_.document().redo();
-      case 2:
-        return window_.document().save();
-      case 3:
-        return changeOptions();
-      case 4:
-        return paintMask();
-      case 5:
-        return random_.below(4) == 0 && run();
-      case 6:
-      case 7:
-      case 8:
-        return annotate();
-      default:
-        return moveSeed();
-    }
+    const auto choice = random_.below(15);
+    if (choice == 0) return window_.document().undo();
+    if (choice == 1) return window_.document().redo();
+    if (choice == 2) return window_.document().save();
+    if (choice == 3) return changeOptions();
+    if (choice == 4) return paintMask();
+    if (choice == 5) return random_.below(4) == 0 && run();
+    return choice <= 8 ? annotate() : moveSeed();
   }
 
   /// The window is drawn as it is now before anything is confirmed.
@@ -94,22 +82,18 @@ class Operator {
   bool annotate() {
     ui::AnnotationController& annotator = window_.annotation();
     const Eigen::Vector2d pixel(random_.uniform(0.0, 900.0), random_.uniform(0.0, 900.0));
-    switch (random_.below(5)) {
-      case 0:
-        return !annotator.placeOnStation(1e-4 * Eigen::Vector3d(pixel.x(), pixel.y(), 10.0))
-                    .empty();
-      case 1: {
-        const bool moved = annotator.nudge({0.1, 0.0});
-        annotator.finishMove();
-        return moved;
-      }
-      case 2:
-        if (random_.below(4) != 0 || annotator.annotations().empty()) return false;
-        annotator.putAside(QStringLiteral("Ada"));
-        return true;
-      default:
-        return !annotator.placeInImage(pixel).empty();
+    const auto choice = random_.below(5);
+    if (choice == 0)
+      return !annotator.placeOnStation(1e-4 * Eigen::Vector3d(pixel.x(), pixel.y(), 10.0)).empty();
+    if (choice == 1) {
+      const bool moved = annotator.nudge({0.1, 0.0});
+      annotator.finishMove();
+      return moved;
     }
+    if (choice > 2) return !annotator.placeInImage(pixel).empty();
+    if (random_.below(4) != 0 || annotator.annotations().empty()) return false;
+    annotator.putAside(QStringLiteral("Ada"));
+    return true;
   }
 
   /// A run that ends is an action, too: it is in the session when it is confirmed.

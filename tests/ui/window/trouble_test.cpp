@@ -8,6 +8,7 @@
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
+#include "tests/ui/window/desktop.h"
 #include "tests/ui/window_test.h"
 
 namespace boresight::ui {
@@ -33,39 +34,27 @@ class FullDisk {
   void (*before_)(int) = nullptr;
 };
 
-/// Answers the next message box by a button, and the file dialog after it by a name.
-class Answers {
- public:
-  Answers(const QString& button, const QString& file) : button_(button), file_(file) {
-    QObject::connect(&timer_, &QTimer::timeout, &timer_, [this] { look(); });
-    timer_.start(10);
-  }
-  QString text() const { return text_; }
-
- private:
-  void look() {
-    QWidget* modal = QApplication::activeModalWidget();
-    if (auto* box = qobject_cast<QMessageBox*>(modal)) {
-      text_ += box->text() + QLatin1Char('\n') + box->informativeText() + QLatin1Char('\n') +
-               box->detailedText();
-      for (QAbstractButton* each : box->buttons()) {
-        if (each->text().remove(QLatin1Char('&')) != button_) continue;
-        QTest::mouseClick(each, Qt::LeftButton);
-        return;
-      }
-      ADD_FAILURE() << "no button " << button_.toStdString();
-      box->reject();
-    } else if (auto* dialog = qobject_cast<QFileDialog*>(modal)) {
-      auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
-      name->setText(file_);
-      QTest::keyClick(name, Qt::Key_Return);
-    }
-  }
-
-  QString button_;
-  QString file_;
-  QString text_;
-  QTimer timer_;
+/// Answers message boxes by a button, and the file dialog after them by a name.
+struct Answers {
+  QString button;
+  QString file = {};
+  std::function<void()> before_file = [] {};
+  QString text = {};  ///< of the boxes
+  test::ModalAnswer<QMessageBox> boxes{[this](QMessageBox& box) {
+    text +=
+        QStringList{box.text(), box.informativeText(), box.detailedText()}.join(QLatin1Char('\n'));
+    for (QAbstractButton* each : box.buttons())
+      if (each->text().remove(QLatin1Char('&')) == button)
+        return QTest::mouseClick(each, Qt::LeftButton);
+    ADD_FAILURE() << "no button " << button.toStdString();
+    box.reject();
+  }};
+  test::ModalAnswer<QFileDialog> dialogs{[this](QFileDialog& dialog) {
+    before_file();
+    auto* name = dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+    name->setText(file);
+    QTest::keyClick(name, Qt::Key_Return);
+  }};
 };
 
 class TroubleTest : public test::WindowTest {
@@ -90,26 +79,19 @@ class TroubleTest : public test::WindowTest {
 /// A full disk while another has room: its limit goes when the person has read the message and is
 /// asked for a file elsewhere.
 struct RoomElsewhere {
-  explicit RoomElsewhere(const std::filesystem::path& elsewhere)
-      : answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere.string())) {
-    QObject::connect(&timer, &QTimer::timeout, &timer, [this] {
-      if (qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) disk.end();
-    });
-    timer.start(1);
-  }
-
+  std::filesystem::path elsewhere;
   FullDisk disk{64};
-  Answers answers;
-  QTimer timer;
+  Answers answers{QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere.string()),
+                  [this] { disk.end(); }};
 };
 
 TEST_F(TroubleTest, AFullDiskIsToldAndTheEditIsSavedElsewhere) {
   openExample();
   const std::string before = savedBytes();
-  RoomElsewhere room(elsewhere_);
+  RoomElsewhere room{elsewhere_};
   setSeed(0.123);
-  EXPECT_TRUE(test::has(room.answers.text(), "one.boresight.journal"));
-  EXPECT_TRUE(test::has(room.answers.text(), "all changes are still in this window"));
+  EXPECT_TRUE(test::has(room.answers.text, "one.boresight.journal"));
+  EXPECT_TRUE(test::has(room.answers.text, "all changes are still in this window"));
   EXPECT_EQ(savedBytes(), before) << "the old file is as it was";
   ASSERT_TRUE(std::filesystem::exists(elsewhere_));
   EXPECT_EQ(window_.document().file(), elsewhere_);
@@ -120,12 +102,12 @@ TEST_F(TroubleTest, AFullDiskIsToldAndTheEditIsSavedElsewhere) {
 
 TEST_F(TroubleTest, ARunThatDoesNotFitIsKeptAndStoredElsewhere) {
   openExample();
-  RoomElsewhere room(elsewhere_);
+  RoomElsewhere room{elsewhere_};
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([this] {
     return !window_.document().session().runs.empty() && !window_.tasks().isBusy();
-  })) << room.answers.text().toStdString();
-  EXPECT_FALSE(room.answers.text().isEmpty());
+  })) << room.answers.text.toStdString();
+  EXPECT_FALSE(room.answers.text.isEmpty());
   EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
   const sessions::RunRecord& record = window_.document().session().runs.front();
   EXPECT_EQ(record.digest, window_.state().snapshot()->digest);
@@ -138,16 +120,16 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
   openExample();
   {
     const FullDisk disk(64);
-    Answers answers(QStringLiteral("Close"), {});
+    Answers answers{QStringLiteral("Close")};
     QTest::keyClick(&window_, Qt::Key_F5);
     ASSERT_TRUE(wait([this] { return !window_.cases().unstoredRuns().isEmpty(); }));
-    EXPECT_TRUE(test::has(answers.text(), "all changes are still in this window"));
+    EXPECT_TRUE(test::has(answers.text, "all changes are still in this window"));
     EXPECT_TRUE(window_.document().session().runs.empty());
   }
   {
-    Answers answers(QStringLiteral("Cancel"), {});
+    Answers answers{QStringLiteral("Cancel")};
     EXPECT_FALSE(window_.close()) << "the run would be lost";
-    EXPECT_TRUE(test::has(answers.text(), "No space"));
+    EXPECT_TRUE(test::has(answers.text, "No space"));
   }
   window_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
@@ -164,9 +146,9 @@ TEST_F(TroubleTest, AFullDiskWhileSavingLeavesTheOldFileAndTheEdits) {
   ASSERT_TRUE(window_.document().isModified());
   {
     const FullDisk disk(64);
-    Answers answers(QStringLiteral("Close"), {});
+    Answers answers{QStringLiteral("Close")};
     QTest::keySequence(&window_, QKeySequence::Save);
-    EXPECT_TRUE(test::has(answers.text(), "cannot write"));
+    EXPECT_TRUE(test::has(answers.text, "cannot write"));
   }
   EXPECT_EQ(savedBytes(), before);
   EXPECT_TRUE(window_.document().isModified());
@@ -186,26 +168,29 @@ TEST_F(TroubleTest, AReadOnlyFolderIsToldAndTheSessionIsSavedElsewhere) {
   EXPECT_FALSE(window_.document().readOnlyReason().isEmpty());
   EXPECT_TRUE(test::has(window_.windowTitle(), "read only"));
   ASSERT_TRUE(wait([this] { return window_.state().currentCase() != nullptr; }));
-  Answers answers(QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere_.string()));
+  Answers answers{QStringLiteral("Save elsewhere..."), QString::fromStdString(elsewhere_.string())};
   setSeed(0.5);
   EXPECT_EQ(savedBytes(), before);
   EXPECT_EQ(seedIn(sessions::readSessionFile(elsewhere_).session), 0.5);
   std::filesystem::permissions(folder_.path(), std::filesystem::perms::owner_all);
 }
 
-TEST_F(TroubleTest, EditsOfAKilledProgram_AreOfferedAndRecovered) {
-  openExample();
-  setSeed(0.25);
-  window_.document().close();  // as a kill does it: nothing is saved
-  Answers answers(QStringLiteral("Recover"), {});
-  ASSERT_TRUE(window_.openSession(file_));
-  EXPECT_TRUE(test::has(answers.text(), "one.boresight.json"));
-  EXPECT_TRUE(test::has(answers.text(), "unsaved work"));
-  EXPECT_TRUE(test::has(answers.text(), "Move the seed")) << "which they were";
-  EXPECT_FALSE(window_.document().recovery());
-  ASSERT_TRUE(wait([this] { return !window_.tasks().isBusy(); }));
-  EXPECT_EQ(seedIn(window_.document().session()), 0.25);
-  EXPECT_TRUE(window_.document().isModified());
+TEST_F(TroubleTest, EditsOfAKilledProgram_AreOfferedAndRecoveredOrSetAside) {
+  for (const bool recovers : {false, true}) {
+    openExample();
+    setSeed(0.25);
+    window_.document().close();  // as a kill does it: nothing is saved
+    Answers answers{QLatin1String(recovers ? "Recover" : "Set aside")};
+    ASSERT_TRUE(window_.openSession(file_));
+    EXPECT_TRUE(test::has(answers.text, file_.filename().c_str()));
+    EXPECT_TRUE(test::has(answers.text, "unsaved work"));
+    EXPECT_TRUE(test::has(answers.text, "Move the seed")) << "which they were";
+    EXPECT_FALSE(window_.document().recovery());
+    ASSERT_TRUE(wait([this] { return !window_.tasks().isBusy(); }));
+    EXPECT_EQ(seedIn(window_.document().session()) == 0.25, recovers);
+    EXPECT_EQ(window_.document().isModified(), recovers);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "one.boresight.journal.aside-1"));
 }
 
 TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {
@@ -230,19 +215,6 @@ TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {
   ASSERT_TRUE(shown(first));
   ASSERT_TRUE(window_.document().acceptRecovery());
   EXPECT_TRUE(shown(second));
-}
-
-TEST_F(TroubleTest, EditsOfAKilledProgramCanBeSetAside) {
-  openExample();
-  setSeed(0.25);
-  window_.document().close();
-  Answers answers(QStringLiteral("Set aside"), {});
-  ASSERT_TRUE(window_.openSession(file_));
-  EXPECT_FALSE(answers.text().isEmpty());
-  ASSERT_TRUE(wait([this] { return !window_.tasks().isBusy(); }));
-  EXPECT_NE(seedIn(window_.document().session()), 0.25);
-  EXPECT_FALSE(window_.document().isModified());
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "one.boresight.journal.aside-1"));
 }
 
 }  // namespace

@@ -101,10 +101,8 @@ class Inspector {
     const bool handle = qobject_cast<const QSplitterHandle*>(&widget) ||
                         widget.objectName() == QLatin1String("qt_qmainwindow_extended_splitter");
     if (handle || scrolls(parent) || parent.rect().contains(widget.geometry())) return;
-    add(widget, QStringLiteral("%1 is outside of %2 x %3")
-                    .arg(textOf(widget.geometry()))
-                    .arg(parent.width())
-                    .arg(parent.height()));
+    add(widget, QStringLiteral("%1 is outside of %2")
+                    .arg(textOf(widget.geometry()), textOf(parent.rect())));
   }
 
   void inspectSize(const QWidget& widget, const QLayout& layout) {
@@ -113,39 +111,30 @@ class Inspector {
     const QSize least = layout.totalMinimumSize();
     if (layout.sizeConstraint() == QLayout::SetNoConstraint) return;
     if (widget.width() < least.width() || widget.height() < least.height())
-      add(widget, QStringLiteral("%1 x %2 is less than the %3 x %4 of its contents")
-                      .arg(widget.width())
-                      .arg(widget.height())
-                      .arg(least.width())
-                      .arg(least.height()));
+      add(widget, QStringLiteral("%1 is less than its contents: %2")
+                      .arg(textOf(widget.geometry()), textOf({{}, least})));
   }
 
-  struct Placed {
-    QString name;
-    QRect rect;
-  };
-
-  static std::vector<Placed> itemsOf(const QLayout& layout) {
-    std::vector<Placed> items;
+  static std::vector<std::pair<QString, QRect>> itemsOf(const QLayout& layout) {
+    std::vector<std::pair<QString, QRect>> items;
     for (int i = 0; i < layout.count(); ++i) {
       QLayoutItem* item = layout.itemAt(i);
       if (item->isEmpty() || item->spacerItem()) continue;
       const QWidget* widget = item->widget();
       if (widget && !isShown(*widget)) continue;
-      items.push_back({widget ? pathOf(*widget) : QStringLiteral("a layout"),
-                       widget ? widget->geometry() : item->geometry()});
+      items.emplace_back(widget ? pathOf(*widget) : QStringLiteral("a layout"),
+                         widget ? widget->geometry() : item->geometry());
     }
     return items;
   }
 
   void inspectOverlaps(const QWidget& widget, const QLayout& layout) {
-    const std::vector<Placed> items = itemsOf(layout);
-    for (std::size_t i = 0; i < items.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (items[i].rect.intersects(items[j].rect))
-          add(widget,
-              QStringLiteral("%1 (%2) overlaps %3 (%4)")
-                  .arg(items[i].name, textOf(items[i].rect), items[j].name, textOf(items[j].rect)));
+    const auto items = itemsOf(layout);
+    for (const auto& [name, rect] : items)
+      for (const auto& [other_name, other] : items)
+        if (&rect < &other && rect.intersects(other))
+          add(widget, QStringLiteral("%1 (%2) overlaps %3 (%4)")
+                          .arg(name, textOf(rect), other_name, textOf(other)));
     for (int i = 0; i < layout.count(); ++i)
       if (const QLayout* inner = layout.itemAt(i)->layout()) inspectOverlaps(widget, *inner);
   }
@@ -258,20 +247,15 @@ class Inspector {
   void inspectCells(const QTableView& view) {
     const QAbstractItemModel* model = view.model();
     if (!model) return;
-    if (view.wordWrap()) return inspectRows(view);
     for (int row = 0; row < model->rowCount(); ++row)
-      for (int column = 0; column < model->columnCount(); ++column)
-        if (!view.isRowHidden(row) && !view.isColumnHidden(column))
-          inspectCell(view, model->index(row, column));
+      for (int column = 0; column < model->columnCount(); ++column) {
+        if (view.isRowHidden(row) || view.isColumnHidden(column)) continue;
+        const QModelIndex index = model->index(row, column);
+        view.wordWrap() ? inspectLines(view, index) : inspectCell(view, index);
+      }
   }
 
   /// Where texts take further lines.
-  void inspectRows(const QTableView& view) {
-    for (int row = 0; row < view.model()->rowCount(); ++row)
-      for (int column = 0; column < view.model()->columnCount(); ++column)
-        if (!view.isRowHidden(row) && !view.isColumnHidden(column))
-          inspectLines(view, view.model()->index(row, column));
-  }
   void inspectLines(const QTableView& view, const QModelIndex& index) {
     const QString text = index.data().toString();
     const QRect room(0, 0, view.columnWidth(index.column()), view.rowHeight(index.row()));

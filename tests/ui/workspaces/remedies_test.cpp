@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/workspaces/remedies.h"
 
+#include "tests/ui/window/desktop.h"
 #include "tests/ui/window_test.h"
 #include "tests/ui/workspaces/desk.h"
 #include "ui/annotation/annotation_controller.h"
@@ -51,13 +52,11 @@ TEST_F(RemediesTest, DiagnoseSaysWhyInFullAndBringsTheTools) {
 }
 
 TEST_F(RemediesTest, StatedUncertaintyRunsAgain) {
-  QTimer::singleShot(200, [&] {
-    auto* dialog = qobject_cast<UncertaintyDialog*>(QApplication::activeModalWidget());
-    ASSERT_NE(dialog, nullptr);
-    const auto boxes = dialog->findChildren<QDoubleSpinBox*>();
+  const test::ModalAnswer<UncertaintyDialog> answer([](UncertaintyDialog& dialog) {
+    const auto boxes = dialog.findChildren<QDoubleSpinBox*>();
     ASSERT_EQ(boxes.size(), 6);
     boxes.back()->setValue(45.0);  // about z
-    dialog->accept();
+    dialog.accept();
   });
   press(Step::kUncertainty);
   ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 2 && resting(); }));

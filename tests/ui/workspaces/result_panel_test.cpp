@@ -49,7 +49,7 @@ class ResultPanelTest : public ::testing::Test {
   ResultPanel panel_{state_, quality_};
 };
 
-TEST_F(ResultPanelTest, ConvergedRun_HasItsQualityAgainstTheRequirement) {
+TEST_F(ResultPanelTest, ConvergedRun_HasItsQualityAgainstTheRequirement_OtherLimitsMeasureAgain) {
   show(LocalizationStatus::kConverged);
   ASSERT_TRUE(quality_.quality().has_value());
   const sessions::PrecisionFigure* worst = quality_.quality()->worst();
@@ -58,11 +58,7 @@ TEST_F(ResultPanelTest, ConvergedRun_HasItsQualityAgainstTheRequirement) {
   EXPECT_TRUE(says(QStringLiteral("3 sigma")));
   EXPECT_TRUE(pose().isEnabled());
   EXPECT_FALSE(says(QStringLiteral("Rejected")));
-}
-
-TEST_F(ResultPanelTest, OtherLimits_MeasureAgain) {
-  show(LocalizationStatus::kConverged);
-  const double before = *quality_.quality()->worst()->found;
+  const double before = *worst->found;
   sessions::Session changed = document_.session();
   changed.review.limits = {{"check.sigmas", 1.5}};
   ASSERT_TRUE(document_.edit(changed, QStringLiteral("limits")));

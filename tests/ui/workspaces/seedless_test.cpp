@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/ui/window_test.h"
-#include "ui/window/session_files.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
@@ -42,20 +41,6 @@ TEST_F(SeedlessTest, IsNotRunWithTheReason_UntilTheAnnotationsGiveASeed) {
   ASSERT_TRUE(runToTheEnd(1));
   EXPECT_TRUE(window_.state().snapshot()->converged());
   EXPECT_FALSE(window_.document().session().cases[1]->has_seed);
-}
-
-TEST_F(SeedlessTest, ThreeFilesMakeACaseToBeAnnotated) {
-  const std::filesystem::path os = test::exampleFolder() / "os";
-  auto* files = window_.findChild<SessionFiles*>();
-  window_.takeFiles({os / "image.png", os / "camera.json", os / "model.ply"});
-  files->setMeshUnit("m");
-  auto& make = find<QPushButton>("makeSeedless");
-  ASSERT_TRUE(make.isVisibleTo(&window_));
-  make.click();
-  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }))
-      << window_.lastMessage().toStdString();
-  EXPECT_FALSE(window_.state().currentCase()->source.has_seed);
-  window_.document().discardUntitled();
 }
 
 }  // namespace

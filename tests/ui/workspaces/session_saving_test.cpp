@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session is found again under the name that was typed, and what was discarded is gone.
+#include "tests/ui/window/desktop.h"
 #include "tests/ui/window_test.h"
 #include "ui/review/pose_export.h"
 #include "ui/window/session_files.h"
@@ -7,21 +8,7 @@
 namespace boresight::ui {
 namespace {
 
-/// Answers the next dialog on its way.
-class Answer {
- public:
-  explicit Answer(std::function<bool(QWidget*)> answer) : answer_(std::move(answer)) {
-    QObject::connect(&timer_, &QTimer::timeout, &timer_, [this] {
-      QWidget* modal = QApplication::activeModalWidget();
-      if (modal && answer_(modal)) timer_.stop();
-    });
-    timer_.start(20);
-  }
-
- private:
-  std::function<bool(QWidget*)> answer_;
-  QTimer timer_;
-};
+using BoxAnswer = test::ModalAnswer<QMessageBox>;
 
 class SessionSavingTest : public test::WindowTest {
  protected:
@@ -39,12 +26,7 @@ TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
   openExample();
   moveSeed(0.01);
   ASSERT_TRUE(window_.document().isModified());
-  const Answer answer([](QWidget* modal) {
-    auto* box = qobject_cast<QMessageBox*>(modal);
-    if (!box) return false;
-    box->button(QMessageBox::Discard)->click();
-    return true;
-  });
+  const BoxAnswer answer([](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
   ASSERT_TRUE(files().mayLeave());
   EXPECT_FALSE(window_.document().isModified());
   window_.document().close();
@@ -59,13 +41,10 @@ TEST_F(SessionSavingTest, CaseOfAKnownName_IsNeverReplacedWithoutAnAnswer) {
   const std::filesystem::path os = test::exampleFolder() / "os";
   const auto add = [&](const char* button) {
     bool asked = false;
-    const Answer answer([&asked, button](QWidget* modal) {
-      auto* box = qobject_cast<QMessageBox*>(modal);
-      if (!box) return false;
+    const BoxAnswer answer([&asked, button](QMessageBox& box) {
       asked = true;
-      auto* chosen = box->findChild<QAbstractButton*>(QString::fromUtf8(button));
-      (chosen ? chosen : box->button(QMessageBox::Cancel))->click();
-      return true;
+      auto* chosen = box.findChild<QAbstractButton*>(QString::fromUtf8(button));
+      (chosen ? chosen : box.button(QMessageBox::Cancel))->click();
     });
     window_.takeFiles({os / "image.png", os / "camera.json", os / "model.ply"});
     files().setMeshUnit("m");

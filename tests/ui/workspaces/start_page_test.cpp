@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/start_page.h"
 
+#include "tests/ui/window/desktop.h"
 #include "tests/ui/window_test.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_frame.h"
@@ -12,19 +13,25 @@ namespace {
 
 class StartPageTest : public test::WindowTest {
  protected:
+  void TearDown() override { window_.document().discardUntitled(); }
   StartPage& page() { return window_.frame().start(); }
+  SessionFiles& files() { return *window_.findChild<SessionFiles*>(); }
+  bool caseIsMade() {
+    return wait([this] { return window_.state().currentCase() && resting(); });
+  }
   QStringList texts() {
     QStringList all;
     for (const QLabel* label : page().findChildren<QLabel*>())
       if (label->isVisibleTo(&page())) all << label->text();
     return all;
   }
+
+  const std::filesystem::path os_ = test::exampleFolder() / "os";
 };
 
 TEST_F(StartPageTest, SlotsTellWhatIsMissing) {
-  const std::filesystem::path os = test::exampleFolder() / "os";
   EXPECT_EQ(texts().count(QStringLiteral("+ still needed")), 4);
-  window_.takeFiles({os / "image.png", os / "camera.json"});
+  window_.takeFiles({os_ / "image.png", os_ / "camera.json"});
   EXPECT_EQ(texts().count(QStringLiteral("+ still needed")), 2);
   EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 2);
   EXPECT_TRUE(texts().contains(QStringLiteral("image.png")));
@@ -35,10 +42,9 @@ TEST_F(StartPageTest, SlotsTellWhatIsMissing) {
 
 /// What is wrong stands at its file, and no case is made of it.
 TEST_F(StartPageTest, FilesAreJudgedAsTheyCome_AndRemoved) {
-  const std::filesystem::path os = test::exampleFolder() / "os";
   const auto small = folder_.path() / "small.png";
   sessions::writePng(small, std::vector<std::uint8_t>(640 * 480, 9), 640, 480, 1);
-  window_.takeFiles({small, os / "camera.json"});
+  window_.takeFiles({small, os_ / "camera.json"});
   ASSERT_TRUE(wait([&] { return texts().contains(QStringLiteral("✗ not usable")); }));
   EXPECT_TRUE(texts().contains(QStringLiteral("640 x 480 px, 8 bit")));
   const auto& picture = find<QLabel>("slotPicture0");
@@ -50,50 +56,51 @@ TEST_F(StartPageTest, FilesAreJudgedAsTheyCome_AndRemoved) {
   const auto& verdict = window_.frame().verdict();
   ASSERT_TRUE(wait([&] { return verdict.verdict().sentence == problem; }));
   EXPECT_EQ(verdict.verdict().step_text, QStringLiteral("Choose camera..."));
-  auto* files = window_.findChild<SessionFiles*>();
-  files->setMeshUnit("m");
-  window_.takeFiles({os / "model.ply"});
-  files->setMeshUnit("m");
-  window_.takeFiles({os / "seed.json"});
+  files().setMeshUnit("m");
+  window_.takeFiles({os_ / "model.ply"});
+  files().setMeshUnit("m");
+  window_.takeFiles({os_ / "seed.json"});
   ASSERT_TRUE(rests());
   EXPECT_TRUE(window_.document().session().cases.empty()) << "it could not be run";
   find<QToolButton>("slotRemove0").click();
   ASSERT_TRUE(rests());
   EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 3);
   EXPECT_FALSE(picture.isVisibleTo(&page()));
-  window_.takeFiles({os / "image.png"});
-  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }))
-      << window_.lastMessage().toStdString();
-  window_.document().discardUntitled();
+  window_.takeFiles({os_ / "image.png"});
+  ASSERT_TRUE(caseIsMade()) << window_.lastMessage().toStdString();
 }
 
 TEST_F(StartPageTest, UnreadableFile_IsShownAtItsSlotOnly) {
   const auto text = folder_.path() / "text.png";
   std::ofstream(text) << "no image";
-  window_.takeFiles({text, test::exampleFolder() / "os" / "camera.json"});
+  window_.takeFiles({text, os_ / "camera.json"});
   ASSERT_TRUE(wait([&] { return texts().contains(QStringLiteral("✗ not usable")); }));
   EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 1) << "the camera";
 }
 
 /// Cancelling the question for the unit leaves all files; the unit's choice then makes the case.
 TEST_F(StartPageTest, UnitChosenAtTheSlot_MakesTheCase) {
-  const std::filesystem::path os = test::exampleFolder() / "os";
-  QTimer cancel;
-  cancel.setInterval(50);
-  QObject::connect(&cancel, &QTimer::timeout, [] {
-    if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget())) dialog->reject();
-  });
-  cancel.start();
-  window_.takeFiles({os / "image.png", os / "camera.json", os / "model.ply", os / "seed.json"});
-  ASSERT_TRUE(rests());
-  cancel.stop();
+  {
+    const test::ModalAnswer<QDialog> cancels([](QDialog& dialog) { dialog.reject(); });
+    window_.takeFiles(
+        {os_ / "image.png", os_ / "camera.json", os_ / "model.ply", os_ / "seed.json"});
+    ASSERT_TRUE(rests());
+  }
   EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 4) << "they stay";
   EXPECT_TRUE(window_.document().session().cases.empty());
   ASSERT_TRUE(wait([&] { return !page().findChildren<QRadioButton*>().isEmpty(); }));
   page().findChildren<QRadioButton*>().front()->click();
-  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }))
-      << window_.lastMessage().toStdString();
-  window_.document().discardUntitled();
+  ASSERT_TRUE(caseIsMade()) << window_.lastMessage().toStdString();
+}
+
+TEST_F(StartPageTest, ThreeFilesMakeACaseToBeAnnotated) {
+  window_.takeFiles({os_ / "image.png", os_ / "camera.json", os_ / "model.ply"});
+  files().setMeshUnit("m");
+  auto& make = find<QPushButton>("makeSeedless");
+  ASSERT_TRUE(make.isVisibleTo(&window_));
+  make.click();
+  ASSERT_TRUE(caseIsMade()) << window_.lastMessage().toStdString();
+  EXPECT_FALSE(window_.state().currentCase()->source.has_seed);
 }
 
 TEST_F(StartPageTest, MeshIsMeasuredInEachUnit) {
@@ -104,50 +111,33 @@ TEST_F(StartPageTest, MeshIsMeasuredInEachUnit) {
   EXPECT_TRUE(test::has(choices[0]->text(), "m: "));
   EXPECT_TRUE(test::has(choices[0]->text(), "mm across"));
   choices[1]->click();
-  EXPECT_EQ(window_.findChild<SessionFiles*>()->collected().one.parts.front().mesh_unit, "mm");
+  EXPECT_EQ(files().collected().one.parts.front().mesh_unit, "mm");
 }
 
 TEST_F(StartPageTest, OneClickOpensAnExampleAndRunsIt) {
-  auto* open = page().findChild<QPushButton*>(QStringLiteral("openExample"));
-  ASSERT_NE(open, nullptr);
-  open->click();
+  find<QPushButton>("openExample").click();
   ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }))
       << window_.lastMessage().toStdString();
   EXPECT_TRUE(window_.state().snapshot()->converged());
   EXPECT_TRUE(window_.document().isUntitled()) << "the shipped file stays as it is";
   EXPECT_EQ(window_.workspaces().current(), Workspace::kRun);
-  window_.document().discardUntitled();
 }
 
-TEST_F(StartPageTest, FilesMakeANewSession_NotAPartOfTheOpenOne) {
+TEST_F(StartPageTest, FilesMakeACaseOfTheOpenSession) {
   openExample();
   window_.workspaces().show(Workspace::kStart);
-  const std::filesystem::path os = test::exampleFolder() / "os";
-  auto* files = window_.findChild<SessionFiles*>();
-  window_.takeFiles({os / "image.png", os / "camera.json", os / "model.ply"});
-  files->setMeshUnit("m");
-  window_.takeFiles({os / "seed.json"});
-  ASSERT_TRUE(wait([&] { return window_.document().isUntitled() && resting(); }));
-  EXPECT_EQ(window_.document().session().cases.size(), 1u);
-  window_.document().discardUntitled();
+  EXPECT_TRUE(test::has(find<QLabel>("newCase").text(), "New case of one.boresight.json"));
+  window_.takeFiles({os_ / "image.png", os_ / "camera.json", os_ / "model.ply"});
+  files().setMeshUnit("m");
+  find<QPushButton>("makeSeedless").click();
+  ASSERT_TRUE(wait([&] { return window_.document().session().cases.size() == 3 && resting(); }));
+  EXPECT_EQ(window_.workspaces().current(), Workspace::kRun);
+  EXPECT_FALSE(window_.state().currentCase()->source.has_seed);
+  EXPECT_EQ(window_.document().file(), file_);
 }
 
-/// With a folder of its own for sessions without a name.
-class LeftWorkTest : public ::testing::Test {
- protected:
-  LeftWorkTest() {
-    QStandardPaths::setTestModeEnabled(false);
-    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(data_.path().string()));
-  }
-  ~LeftWorkTest() override {
-    qunsetenv("XDG_DATA_HOME");
-    QStandardPaths::setTestModeEnabled(true);
-  }
-
-  test::TemporaryFolder data_;
-};
-
-TEST_F(LeftWorkTest, IsOfferedAndRecoveredOrDiscarded) {
+TEST(LeftWork, IsOfferedAndRecoveredOrDiscarded) {
+  const test::OwnDataFolder data;
   for (const char* button : {"recoverLeft", "discardLeft"}) {
     {
       Document left;

@@ -31,12 +31,6 @@ class WindowFitsTest : private Look, public test::WindowTest {
     ASSERT_TRUE(waitUntilResting(window_));
     ASSERT_TRUE(window_.state().snapshot());
   }
-  void reject() {
-    window_.workspaces().show(Workspace::kReview);
-    ASSERT_TRUE(waitUntilResting(window_));
-    auto& review = window_.findChild<ReviewPanel*>()->controller();
-    ASSERT_TRUE(review.decide(ReviewController::Act::kReject, {"A. Reviewer", "too few edges"}));
-  }
 
   /// What a task brings lays panels out again.
   void settle() {
@@ -49,6 +43,7 @@ class WindowFitsTest : private Look, public test::WindowTest {
     }
   }
   void resize(const QSize& size) {
+    size_ = size;
     window_.resize(size);
     settle();
   }
@@ -85,13 +80,11 @@ class WindowFitsTest : private Look, public test::WindowTest {
     window_.workspaces().arrange();
   }
   void expectAllFit(const QSize& size, std::initializer_list<Workspace> workspaces) {
-    size_ = size;
     resize(size);
     for (const Workspace each : workspaces)
-      expectWorkspaceFits(each, QStringLiteral("%1 at %2 x %3")
+      expectWorkspaceFits(each, QStringLiteral("%1, %2 px wide")
                                     .arg(QLatin1String(workspaceInfo(each).name))
-                                    .arg(size.width())
-                                    .arg(size.height()));
+                                    .arg(size.width()));
   }
 
   QSize size_;
@@ -104,7 +97,10 @@ constexpr auto kAll = {Workspace::kStart,    Workspace::kRun,    Workspace::kDia
 /// fonts at most, and what fits the least size has room in others.
 TEST_F(WindowFitsTest, WorkspacesOfAReviewedCase_AreWholeAtEverySize) {
   openDesk(Desk::converged());
-  reject();
+  window_.workspaces().show(Workspace::kReview);
+  ASSERT_TRUE(waitUntilResting(window_));
+  auto& review = window_.findChild<ReviewPanel*>()->controller();
+  ASSERT_TRUE(review.decide(ReviewController::Act::kReject, {"A. Reviewer", "too few edges"}));
   drop(folder_.write("run.whsr", Desk::converged().record));
   ASSERT_TRUE(rests());
   ASSERT_TRUE(window_.onboard().review());
@@ -174,7 +170,6 @@ TEST_F(WindowFitsTest, AddedPanels_AreWholeWithOneLeftEdgeAndScrollInsideBelow16
     EXPECT_LE(dock->minimumSizeHint().height(), 160) << dock->objectName().toStdString();
   for (const QSize& size : {QSize(1280, 720), QSize(1920, 1080)}) {
     if (size.width() > 1280 && !test::allCases()) return;
-    size_ = size;
     resize(size);
     window_.workspaces().show(Workspace::kRun);
     for (QDockWidget* dock : window_.findChildren<QDockWidget*>()) {
@@ -189,8 +184,7 @@ TEST_F(WindowFitsTest, AddedPanels_AreWholeWithOneLeftEdgeAndScrollInsideBelow16
 }
 
 TEST_F(WindowFitsTest, ACutLabelIsFound) {
-  size_ = QSize(1280, 720);
-  resize(size_);
+  resize({1280, 720});
   QLabel label(QStringLiteral("12.4 mm, 3.1 mrad"), window_.centralWidget());
   label.resize(label.sizeHint());
   label.show();

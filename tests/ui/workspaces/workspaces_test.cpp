@@ -27,20 +27,28 @@ class WorkspacesTest : public test::WindowTest {
     window_.resize(width, height);
     QApplication::processEvents();
   }
+  void show(Workspace workspace) {
+    workspaces().show(workspace);
+    QApplication::processEvents();
+  }
 };
 
-TEST_F(WorkspacesTest, KeysAndTabsChooseAWorkspace) {
+TEST_F(WorkspacesTest, KeysAndTabsChooseAWorkspace_BarsAreThereInEach) {
   auto& tabs = find<QTabBar>("workspaceTabs");
   for (int i = 0; i < kWorkspaceCount; ++i) {
     QTest::keyClick(&window_, static_cast<Qt::Key>(Qt::Key_1 + i), Qt::ControlModifier);
     EXPECT_EQ(workspaces().current(), static_cast<Workspace>(i));
     EXPECT_EQ(tabs.currentIndex(), i);
+    QApplication::processEvents();
+    EXPECT_TRUE(window_.frame().verdict().isVisible());
+    EXPECT_TRUE(window_.frame().jobs().isVisible());
+    EXPECT_TRUE(window_.frame().cases().isVisible());
   }
   tabs.setCurrentIndex(static_cast<int>(Workspace::kDiagnose));
   EXPECT_EQ(workspaces().current(), Workspace::kDiagnose);
 }
 
-TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
+TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTaskAndThoseAddedToIt) {
   resize(1920, 1080);
   struct Expected {
     Workspace workspace;
@@ -55,13 +63,20 @@ TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
       {Workspace::kOnboard, {"onboard"}, {"annotation", "queue"}},
   };
   for (const Expected& each : all) {
-    workspaces().show(each.workspace);
-    QApplication::processEvents();
+    show(each.workspace);
     for (const char* dock : each.shown)
       EXPECT_TRUE(shows(dock)) << workspaceInfo(each.workspace).name << ": " << dock;
     for (const char* dock : each.hidden)
       EXPECT_FALSE(shows(dock)) << workspaceInfo(each.workspace).name << ": " << dock;
+    EXPECT_EQ(window_.frame().cases().isVisible(), each.workspace != Workspace::kReview)
+        << "the queue is the list of cases there";
   }
+  show(Workspace::kRun);
+  window_.dock(QStringLiteral("levels"))->show();
+  workspaces().show(Workspace::kDiagnose);
+  EXPECT_FALSE(shows("levels"));
+  show(Workspace::kRun);
+  EXPECT_TRUE(shows("levels"));
 }
 
 TEST_F(WorkspacesTest, AClickOnTheWarningsListsThemAndOpensNoPanel) {
@@ -102,27 +117,13 @@ TEST_F(WorkspacesTest, CloseUpsShowTheRefinedPose_AndAClickShowsThePlaceOnTheCan
 
 TEST_F(WorkspacesTest, NarrowDiagnose_OpensOneDrawerAtATime) {
   resize(1280, 800);
-  workspaces().show(Workspace::kDiagnose);
-  QApplication::processEvents();
+  show(Workspace::kDiagnose);
   EXPECT_TRUE(shows("inspector"));
   EXPECT_FALSE(shows("iterations"));
   window_.dock(QStringLiteral("iterations"))->toggleViewAction()->trigger();
   QApplication::processEvents();
   EXPECT_TRUE(shows("iterations"));
   EXPECT_FALSE(shows("inspector"));
-}
-
-TEST_F(WorkspacesTest, BarsAreThereInEveryWorkspace) {
-  for (int i = 0; i < kWorkspaceCount; ++i) {
-    workspaces().show(static_cast<Workspace>(i));
-    QApplication::processEvents();
-    EXPECT_TRUE(window_.frame().verdict().isVisible());
-    EXPECT_TRUE(window_.frame().jobs().isVisible());
-    EXPECT_TRUE(window_.frame().cases().isVisible());
-  }
-  resize(1920, 1080);
-  workspaces().show(Workspace::kReview);
-  EXPECT_FALSE(window_.frame().cases().isVisible()) << "the queue is the list of cases there";
 }
 
 TEST_F(WorkspacesTest, StripShowsAndChoosesCases) {
@@ -145,17 +146,6 @@ TEST_F(WorkspacesTest, VerdictRunsTheCaseAndLeadsToReview) {
   EXPECT_TRUE(test::has(bar.text(), "Converged in"));
   QTest::keyClick(&window_, Qt::Key_Return, Qt::ControlModifier);
   EXPECT_EQ(workspaces().current(), Workspace::kReview);
-}
-
-TEST_F(WorkspacesTest, AddedPanelStaysWithItsWorkspace) {
-  resize(1920, 1080);
-  workspaces().show(Workspace::kRun);
-  window_.dock(QStringLiteral("levels"))->show();
-  workspaces().show(Workspace::kDiagnose);
-  EXPECT_FALSE(shows("levels"));
-  workspaces().show(Workspace::kRun);
-  QApplication::processEvents();
-  EXPECT_TRUE(shows("levels"));
 }
 
 /// Each panel that was opened squeezed those of the workspace.
@@ -199,9 +189,8 @@ TEST_F(OwnWindowTest, DiagnoseOfAFailedRun_HasWhatMayHelpInFrontAtFullHeight) {
   EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0) << "all remedies are in view";
 }
 
-TEST_F(OwnWindowTest, StripListsFailedCasesFirstInReviewOnly) {
-  openExample();
-  CasesModel& model = window_.findChild<CasesPanel*>()->model();
+TEST(CaseStrip, ListsFailedCasesFirstForDecisionsOnly) {
+  CasesModel model;
   std::vector<CaseRow> rows(4);
   const CaseState states[] = {CaseState::kValidated, CaseState::kNew, CaseState::kConverged,
                               CaseState::kFailed};
@@ -210,20 +199,12 @@ TEST_F(OwnWindowTest, StripListsFailedCasesFirstInReviewOnly) {
     rows[i].state = states[i];
   }
   model.setRows(rows);
-  auto& strip = *window_.findChild<CaseStrip*>();
-  QStringList asked;
-  QObject::connect(&strip, &CaseStrip::caseRequested, &window_,
-                   [&](const QString& id) { asked << id; });
-  const auto ids = [&] {
-    asked.clear();
-    const QSignalBlocker quiet(window_.cases());
-    for (int row = 0; row < strip.list().model()->rowCount(); ++row) {
-      strip.list().setCurrentIndex({});
-      strip.list().setCurrentIndex(strip.list().model()->index(row, 0));
-    }
-    return asked.join(QString());
+  CaseStrip strip(model);
+  const auto ids = [&order = *strip.list().model()] {
+    QString all;
+    for (int row = 0; row < order.rowCount(); ++row) all += order.index(row, 0).data().toString();
+    return all;
   };
-  strip.disconnect(&window_.cases());
   EXPECT_EQ(ids(), QStringLiteral("0123"));
   strip.setForDecisions(true);
   EXPECT_EQ(ids(), QStringLiteral("3210"));

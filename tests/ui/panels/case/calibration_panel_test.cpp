@@ -15,9 +15,8 @@ class CalibrationPanelTest : public test::WindowTest {
     ASSERT_TRUE(rests());
   }
   QString summary() {
-    return find<CalibrationPanel>("CalibrationPanel")
-        .findChild<QLabel*>(QStringLiteral("summary"))
-        ->text();
+    const auto& panel = *window_.findChild<CalibrationPanel*>();
+    return panel.findChild<QLabel*>(QStringLiteral("summary"))->text();
   }
 };
 

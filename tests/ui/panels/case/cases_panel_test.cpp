@@ -8,25 +8,28 @@
 #include <QtTest>
 #include <QtWidgets>
 
+#include "tests/ui/models/tested_model.h"
 #include "ui/style/theme.h"
 
 namespace boresight::ui {
 namespace {
 
-using Tester = QAbstractItemModelTester;
+CaseRow rowNamed(const char* id, CaseState state, std::optional<double> normal_mm = {}) {
+  CaseRow row;
+  row.id = QString::fromLatin1(id);
+  row.station = row.id.left(2);
+  row.state = state;
+  row.normal_mm = normal_mm;
+  return row;
+}
 
 class CasesPanelTest : public testing::Test {
  protected:
   CasesPanelTest() {
     panel_.resize(500, 400);
     panel_.show();
-    std::vector<CaseRow> rows(3);
-    rows[0].id = QStringLiteral("os-2");
-    rows[1].id = QStringLiteral("bc-1");
-    rows[1].state = CaseState::kFailed;
-    rows[2].id = QStringLiteral("os-1");
-    panel_.setRows(rows);
-    table_ = panel_.findChild<QTableView*>();
+    panel_.setRows({rowNamed("os-2", CaseState::kNew), rowNamed("bc-1", CaseState::kFailed),
+                    rowNamed("os-1", CaseState::kNew)});
   }
   QPushButton* button(const char* name) const {
     return panel_.findChild<QPushButton*>(QString::fromLatin1(name));
@@ -37,7 +40,7 @@ class CasesPanelTest : public testing::Test {
   }
 
   CasesPanel panel_;
-  QTableView* table_ = nullptr;
+  QTableView* table_ = panel_.findChild<QTableView*>();
 };
 
 TEST_F(CasesPanelTest, AClickAsksForACase) {
@@ -52,14 +55,18 @@ TEST_F(CasesPanelTest, AClickAsksForACase) {
   EXPECT_EQ(ran.at(0).at(0).toString(), QStringLiteral("os-1"));
 }
 
-TEST_F(CasesPanelTest, ShowsTheOpenCaseWithoutAskingForIt) {
+TEST_F(CasesPanelTest, OpenCaseAndChangedStates_AreShownWithoutAskingForACase) {
+  clickRow(0);
   QSignalSpy opened(&panel_, &CasesPanel::openRequested);
+  panel_.setRows({rowNamed("os-2", CaseState::kRunning), rowNamed("bc-1", CaseState::kFailed),
+                  rowNamed("os-1", CaseState::kNew)});
+  EXPECT_EQ(table_->currentIndex().row(), 0);
   panel_.setCurrent(QStringLiteral("os-2"));
   EXPECT_EQ(table_->currentIndex().row(), 2);
   EXPECT_EQ(opened.count(), 0);
 }
 
-TEST_F(CasesPanelTest, RunAll_RunsTheListedCases) {
+TEST_F(CasesPanelTest, RunAll_RunsTheListedCases_ThoseOfAWordOrOfAState) {
   QTest::keyClicks(panel_.findChild<QLineEdit*>(), QStringLiteral("os"));
   QSignalSpy ran(&panel_, &CasesPanel::runAllRequested);
   QTest::mouseClick(button("runAll"), Qt::LeftButton);
@@ -67,6 +74,9 @@ TEST_F(CasesPanelTest, RunAll_RunsTheListedCases) {
   EXPECT_EQ(ran.at(0).at(0).toStringList().join(QLatin1Char(' ')), QStringLiteral("os-1 os-2"));
   panel_.setRunnable(false);
   EXPECT_FALSE(button("runAll")->isEnabled());
+  panel_.findChild<QLineEdit*>()->clear();
+  panel_.findChild<QComboBox*>()->setCurrentIndex(1 + static_cast<int>(CaseState::kFailed));
+  EXPECT_EQ(panel_.listed(), QStringList{QStringLiteral("bc-1")});
 }
 
 TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
@@ -90,7 +100,7 @@ TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
       << "the state is shown next to the name";
 }
 
-TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList) {
+TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList_MoreOfItInAWiderOne) {
   panel_.resize(252, 400);
   std::vector<CaseRow> rows(1);
   const auto painted = [&](int number) {
@@ -99,6 +109,9 @@ TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList) {
     return table_->viewport()->grab().toImage();
   };
   EXPECT_NE(painted(1), painted(4)) << "the end is what tells a case from the next";
+  const int narrow = table_->columnWidth(CasesModel::kCase);
+  panel_.resize(600, 400);
+  EXPECT_GT(table_->columnWidth(CasesModel::kCase), narrow);
 }
 
 TEST_F(CasesPanelTest, TheWholeStateIsSeenInTheNarrowestList) {
@@ -119,84 +132,37 @@ TEST_F(CasesPanelTest, TheWholeStateIsSeenInTheNarrowestList) {
   EXPECT_GE(table_->columnWidth(CasesModel::kCase), needed);
 }
 
-TEST_F(CasesPanelTest, WiderList_ShowsMoreOfALongName) {
-  std::vector<CaseRow> rows(1);
-  rows[0].id = QStringLiteral("a_dataset_of_a_long_name-s1");
-  panel_.resize(252, 400);
-  panel_.setRows(rows);
-  const int narrow = table_->columnWidth(CasesModel::kCase);
-  panel_.resize(600, 400);
-  EXPECT_GT(table_->columnWidth(CasesModel::kCase), narrow);
-}
-
-TEST_F(CasesPanelTest, ListsOneState) {
-  panel_.findChild<QComboBox*>()->setCurrentIndex(1 + static_cast<int>(CaseState::kFailed));
-  EXPECT_EQ(panel_.listed(), QStringList{QStringLiteral("bc-1")});
-}
-
-TEST_F(CasesPanelTest, KeepsTheChosenCaseWhileStatesChange) {
-  clickRow(0);
-  std::vector<CaseRow> rows = {panel_.model().at(0), panel_.model().at(1), panel_.model().at(2)};
-  rows[0].state = CaseState::kRunning;
-  QSignalSpy opened(&panel_, &CasesPanel::openRequested);
-  panel_.setRows(rows);
-  EXPECT_EQ(table_->currentIndex().row(), 0);
-  EXPECT_EQ(opened.count(), 0);
-}
-
-CaseRow rowNamed(const char* id, CaseState state, std::optional<double> normal_mm = {}) {
-  CaseRow row;
-  row.id = QString::fromLatin1(id);
-  row.station = row.id.left(2);
-  row.state = state;
-  row.normal_mm = normal_mm;
-  return row;
-}
-
 std::vector<CaseRow> someRows() {
   return {rowNamed("bc-2", CaseState::kConverged, 0.25), rowNamed("os-1", CaseState::kNew),
           rowNamed("bc-1", CaseState::kFailed, 9.5)};
 }
 
-class CasesModelTest : public testing::Test {
+class CasesModelTest : public test::TestedModel<CasesModel> {
  protected:
-  CasesModelTest() {
-    filter_.setSourceModel(&model_);
-    model_.setRows(someRows());
-  }
+  CasesModelTest() { model_.setRows(someRows()); }
 
-  QStringList listed() const {
-    QStringList ids;
+  QString sorted(CasesModel::Column column, Qt::SortOrder order) {
+    filter_.sort(column, order);
+    QString ids;
     for (int row = 0; row < filter_.rowCount(); ++row)
-      ids.append(filter_.index(row, 0).data().toString());
+      ids += filter_.index(row, 0).data().toString();
     return ids;
   }
-
-  CasesModel model_;
-  RowsFilter filter_;
-  Tester model_tester_{&model_, Tester::FailureReportingMode::Fatal};
-  Tester filter_tester_{&filter_, Tester::FailureReportingMode::Fatal};
 };
 
-TEST_F(CasesModelTest, ShowsStateAndErrors) {
-  EXPECT_EQ(model_.index(0, CasesModel::kNormal_mm).data().toString(), QStringLiteral("0.250"));
-  EXPECT_EQ(model_.index(1, CasesModel::kNormal_mm).data().toString(), QString());
-  EXPECT_EQ(model_.index(0, CasesModel::kState).data().toString(), QStringLiteral("✓ converged"));
+TEST_F(CasesModelTest, ShowsStateAndErrorsAndThatARunIsOutdated) {
+  EXPECT_EQ(text(0, CasesModel::kNormal_mm), QStringLiteral("0.250"));
+  EXPECT_EQ(text(1, CasesModel::kNormal_mm), QString());
+  EXPECT_EQ(text(0, CasesModel::kState), QStringLiteral("✓ converged"));
   EXPECT_EQ(model_.rowOf(QStringLiteral("bc-1")), 2);
   EXPECT_EQ(model_.rowOf(QStringLiteral("none")), -1);
-}
-
-TEST_F(CasesModelTest, SaysThatARunIsStale) {
   std::vector<CaseRow> rows = someRows();
   rows[0].stale = true;
   model_.setRows(rows);
-  EXPECT_EQ(model_.index(0, CasesModel::kState).data().toString(),
-            QStringLiteral("✓ converged, outdated"));
+  EXPECT_EQ(text(0, CasesModel::kState), QStringLiteral("✓ converged, outdated"));
+  const QString tip = model_.index(0, 0).data(Qt::ToolTipRole).toString();
   EXPECT_TRUE(
-      model_.index(0, 0)
-          .data(Qt::ToolTipRole)
-          .toString()
-          .contains(QStringLiteral("Outdated: the run was made with other inputs or options")));
+      tip.contains(QStringLiteral("Outdated: the run was made with other inputs or options")));
 }
 
 TEST_F(CasesModelTest, States_HaveDistinctSigns) {
@@ -223,12 +189,9 @@ TEST_F(CasesModelTest, UnknownValues_SortLast) {
   model_.setRows({rowNamed("a", CaseState::kNew), rowNamed("b", CaseState::kConverged, 10.0),
                   rowNamed("c", CaseState::kNew), rowNamed("d", CaseState::kConverged, 9.0),
                   rowNamed("e", CaseState::kConverged, 11.0)});
-  filter_.sort(CasesModel::kNormal_mm, Qt::DescendingOrder);
-  EXPECT_EQ(listed().mid(0, 3).join(QLatin1Char(' ')), QStringLiteral("e b d"));
-  filter_.sort(CasesModel::kNormal_mm, Qt::AscendingOrder);
-  EXPECT_EQ(listed().mid(0, 3).join(QLatin1Char(' ')), QStringLiteral("d b e"));
-  filter_.sort(CasesModel::kCase, Qt::DescendingOrder);
-  EXPECT_EQ(listed().join(QLatin1Char(' ')), QStringLiteral("e d c b a"));
+  EXPECT_EQ(sorted(CasesModel::kNormal_mm, Qt::DescendingOrder).left(3), QStringLiteral("ebd"));
+  EXPECT_EQ(sorted(CasesModel::kNormal_mm, Qt::AscendingOrder).left(3), QStringLiteral("dbe"));
+  EXPECT_EQ(sorted(CasesModel::kCase, Qt::DescendingOrder), QStringLiteral("edcba"));
 }
 
 }  // namespace

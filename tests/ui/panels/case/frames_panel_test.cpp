@@ -10,11 +10,11 @@
 namespace boresight::ui {
 namespace {
 
-sessions::FrameTransform transformOf(const sessions::FrameName& target,
-                                     const sessions::FrameName& source, double z_m) {
+/// Of the end effector in another frame.
+sessions::FrameTransform transformTo(const sessions::FrameName& target, double z_m) {
   sessions::FrameTransform transform;
   transform.target = target;
-  transform.source = source;
+  transform.source = sessions::kEndEffectorFrame;
   transform.target_from_source.translation_m = {0.0, 0.0, z_m};
   transform.origin = sessions::TransformSource::kTelemetry;
   transform.comment = "sol 12";
@@ -25,25 +25,21 @@ class FramesPanelTest : public testing::Test {
  protected:
   FramesPanelTest() {
     auto loaded = std::make_shared<sessions::LoadedCase>();
-    sessions::FrameTransform hand_eye =
-        transformOf(sessions::kCameraFrame, sessions::kEndEffectorFrame, 0.39);
+    sessions::FrameTransform hand_eye = transformTo(sessions::kCameraFrame, 0.39);
     hand_eye.covariance = 1e-6 * Matrix6d::Identity();
-    loaded->source.frames = {hand_eye,
-                             transformOf({"ARM_BASE", {}}, sessions::kEndEffectorFrame, 1.0)};
+    loaded->source.frames = {hand_eye, transformTo({"ARM_BASE", {}}, 1.0)};
     loaded->source.camera_reference.emplace().frame = {"ROVER", {}};
     state_.setCase(loaded);
     panel_.show();
   }
   QTreeWidget& tree() { return *panel_.findChild<QTreeWidget*>(QStringLiteral("frames")); }
-  QPushButton& button(const char* name) {
-    return *panel_.findChild<QPushButton*>(QLatin1String(name));
-  }
 
   ViewState state_;
   FramesPanel panel_{state_};
+  QPushButton& remove_ = *panel_.findChild<QPushButton*>(QStringLiteral("removeFrame"));
 };
 
-TEST_F(FramesPanelTest, ShowsTheTreeWithPlacesAndSigmas) {
+TEST_F(FramesPanelTest, ShowsTheTreeWithPlacesAndSigmas_NarrowItHidesColumns) {
   ASSERT_EQ(tree().topLevelItemCount(), 1);
   const QTreeWidgetItem* camera = tree().topLevelItem(0);
   EXPECT_EQ(camera->text(0), QStringLiteral("CAMERA"));
@@ -55,9 +51,6 @@ TEST_F(FramesPanelTest, ShowsTheTreeWithPlacesAndSigmas) {
   EXPECT_EQ(end_effector->text(4), QStringLiteral("telemetry"));
   ASSERT_EQ(end_effector->childCount(), 1);
   EXPECT_EQ(end_effector->child(0)->text(2), QStringLiteral("exact"));
-}
-
-TEST_F(FramesPanelTest, NarrowPanel_HidesColumnsInsteadOfScrolling) {
   panel_.resize(1200, 300);
   QCoreApplication::processEvents();
   EXPECT_FALSE(tree().isColumnHidden(5));
@@ -72,17 +65,17 @@ TEST_F(FramesPanelTest, RemovesWhatIsTheCasesOwn) {
   QList<sessions::FrameTransform> removed;
   QObject::connect(&panel_, &FramesPanel::removeRequested,
                    [&](const sessions::FrameTransform& transform) { removed << transform; });
-  EXPECT_FALSE(button("removeFrame").isEnabled());
+  EXPECT_FALSE(remove_.isEnabled());
   tree().setCurrentItem(tree().topLevelItem(0)->child(0));
-  EXPECT_FALSE(button("removeFrame").isEnabled()) << "of the camera model";
+  EXPECT_FALSE(remove_.isEnabled()) << "of the camera model";
   tree().setCurrentItem(tree().topLevelItem(0)->child(1));
-  ASSERT_TRUE(button("removeFrame").isEnabled());
-  button("removeFrame").click();
+  ASSERT_TRUE(remove_.isEnabled());
+  remove_.click();
   ASSERT_EQ(removed.size(), 1);
   EXPECT_EQ(removed[0].source, sessions::kEndEffectorFrame);
   state_.setCase(nullptr);
   EXPECT_EQ(tree().topLevelItemCount(), 0);
-  EXPECT_FALSE(button("addFrames").isEnabled());
+  EXPECT_FALSE(panel_.findChild<QPushButton*>(QStringLiteral("addFrames"))->isEnabled());
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ class InputSheetPanelTest : public testing::Test {
   InputSheetPanel panel_;
 };
 
-TEST_F(InputSheetPanelTest, ShowsTheLinesOfASheet) {
+TEST_F(InputSheetPanelTest, ShowsTheLinesOfASheet_ChosenOnesAreCopied) {
   EXPECT_EQ(flags(), QStringLiteral("No case is open."));
   panel_.setSheet(someSheet());
   auto* table = panel_.findChild<QTableWidget*>();
@@ -30,6 +30,12 @@ TEST_F(InputSheetPanelTest, ShowsTheLinesOfASheet) {
   EXPECT_EQ(table->item(1, 0)->text(), QStringLiteral("seed distance"));
   EXPECT_EQ(table->item(1, 1)->text(), QStringLiteral("0.412 m"));
   EXPECT_TRUE(flags().startsWith(QStringLiteral("✓")));
+  panel_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&panel_));
+  table->selectRow(1);
+  table->setFocus();
+  QTest::keyClick(table, Qt::Key_C, Qt::ControlModifier);
+  EXPECT_EQ(QApplication::clipboard()->text(), QStringLiteral("seed distance\t0.412 m\n"));
   panel_.setSheet(std::nullopt);
   EXPECT_EQ(table->rowCount(), 0);
 }
@@ -86,17 +92,6 @@ TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
   EXPECT_EQ(dialog.requirement()->projection_px, 5.0);
   dialog.findChild<QGroupBox*>(QStringLiteral("endEffectorStated"))->setChecked(false);
   EXPECT_FALSE(dialog.cameraFromEndEffector());
-}
-
-TEST_F(InputSheetPanelTest, CopiesWhatIsChosen) {
-  panel_.setSheet(someSheet());
-  auto* table = panel_.findChild<QTableWidget*>();
-  panel_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&panel_));
-  table->selectRow(1);
-  table->setFocus();
-  QTest::keyClick(table, Qt::Key_C, Qt::ControlModifier);
-  EXPECT_EQ(QApplication::clipboard()->text(), QStringLiteral("seed distance\t0.412 m\n"));
 }
 
 }  // namespace

@@ -49,6 +49,10 @@ TEST_F(PartsPanelTest, ShowsTheStatesAndChangesThemAsEdits) {
   EXPECT_TRUE(stateOf(1).present);
   EXPECT_EQ(stateOf(1).role, PartRole::kOccludes);
   EXPECT_EQ(table().item(1, 0)->checkState(), Qt::Checked);
+  choose(0, PartRole::kIgnored);
+  EXPECT_EQ(stateOf(0).role, PartRole::kMatched) << "a station without a matched part is refused";
+  EXPECT_TRUE(test::has(window_.lastMessage(), "matched"));
+  EXPECT_EQ(qobject_cast<QComboBox*>(table().cellWidget(0, 2))->currentIndex(), 0);
 }
 
 TEST_F(PartsPanelTest, NarrowPanel_HidesColumnsInsteadOfScrolling) {
@@ -64,13 +68,6 @@ TEST_F(PartsPanelTest, NarrowPanel_HidesColumnsInsteadOfScrolling) {
   EXPECT_FALSE(shown.isColumnHidden(2)) << "the role";
   EXPECT_EQ(shown.horizontalScrollBar()->maximum(), 0);
   EXPECT_TRUE(test::has(shown.item(1, 1)->toolTip(), "fixed to STATION"));
-}
-
-TEST_F(PartsPanelTest, AStationWithoutAMatchedPartIsRefusedAndSaidSo) {
-  choose(0, PartRole::kIgnored);
-  EXPECT_EQ(stateOf(0).role, PartRole::kMatched);
-  EXPECT_TRUE(test::has(window_.lastMessage(), "matched"));
-  EXPECT_EQ(qobject_cast<QComboBox*>(table().cellWidget(0, 2))->currentIndex(), 0);
 }
 
 }  // namespace

@@ -8,11 +8,18 @@
 
 #include "core/localizer/localizer_options.h"
 #include "tests/support/example_run.h"
+#include "tests/ui/models/tested_model.h"
 #include "ui/panels/diagnose/options_table.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
+
+LocalizerOptions sevenIterations() {
+  LocalizerOptions options;
+  options.loop.max_iterations = 7;
+  return options;
+}
 
 class ConfigurationPanelTest : public testing::Test {
  protected:
@@ -51,6 +58,14 @@ class ConfigurationPanelTest : public testing::Test {
     QTest::keyClick(editor, Qt::Key_Return);
     QApplication::processEvents();
   }
+  template <class Editor>
+  void type(const QString& words, const QString& text) {
+    auto* editor = edit<Editor>(words);
+    ASSERT_NE(editor, nullptr);
+    editor->selectAll();
+    QTest::keyClicks(editor, text);
+    enter(editor);
+  }
   QString help() const { return panel_.findChild<QLabel*>(QStringLiteral("help"))->text(); }
 
   ViewState view_;
@@ -63,33 +78,21 @@ class ConfigurationPanelTest : public testing::Test {
 };
 
 TEST_F(ConfigurationPanelTest, AnIntegerIsEditedInASpinBox) {
-  auto* box = edit<QSpinBox>(QStringLiteral("loop.max_iterations"));
-  ASSERT_NE(box, nullptr);
-  box->selectAll();
-  QTest::keyClicks(box, QStringLiteral("12"));
-  enter(box);
+  type<QSpinBox>(QStringLiteral("loop.max_iterations"), QStringLiteral("12"));
   EXPECT_EQ(edits_, 1);
   EXPECT_EQ(options_.loop.max_iterations, 12);
   EXPECT_TRUE(help().contains(QStringLiteral("loop.max_iterations")));
 }
 
 TEST_F(ConfigurationPanelTest, AValueOutOfRangeIsRefusedWithItsRange) {
-  auto* box = edit<QSpinBox>(QStringLiteral("loop.max_iterations"));
-  ASSERT_NE(box, nullptr);
-  box->selectAll();
-  QTest::keyClicks(box, QStringLiteral("99"));
-  enter(box);
+  type<QSpinBox>(QStringLiteral("loop.max_iterations"), QStringLiteral("99"));
   EXPECT_EQ(edits_, 0);
   EXPECT_TRUE(help().contains(QStringLiteral("99 is outside 1 .. 50"))) << help().toStdString();
   EXPECT_EQ(panel_.options().loop.max_iterations, LoopOptions().max_iterations);
 }
 
 TEST_F(ConfigurationPanelTest, ANumberIsTypedInFull) {
-  auto* line = edit<QLineEdit>(QStringLiteral("converged_rotation"));
-  ASSERT_NE(line, nullptr);
-  line->selectAll();
-  QTest::keyClicks(line, QStringLiteral("0.0123456789"));
-  enter(line);
+  type<QLineEdit>(QStringLiteral("converged_rotation"), QStringLiteral("0.0123456789"));
   EXPECT_EQ(options_.loop.converged_rotation_rad, 0.0123456789);
 }
 
@@ -112,29 +115,30 @@ TEST_F(ConfigurationPanelTest, SpaceTogglesASwitch) {
 
 TEST_F(ConfigurationPanelTest, FindsOptionsByTheirWordsAndByChange) {
   find(QStringLiteral("RANSAC threshold first"));
-  auto* words = panel_.findChild<QLineEdit*>();
-  words->clear();
+  panel_.findChild<QLineEdit*>()->clear();
   EXPECT_EQ(table_->model()->rowCount(), table_->options().rowCount());
-  auto* changed_only = panel_.findChild<QCheckBox*>();
-  changed_only->setChecked(true);
+  panel_.findChild<QCheckBox*>()->setChecked(true);
   EXPECT_EQ(table_->model()->rowCount(), 0);
-  LocalizerOptions options;
-  options.loop.max_iterations = 7;
-  panel_.setOptions(QStringLiteral("default"), options);
+  panel_.setOptions(QStringLiteral("default"), sevenIterations());
   EXPECT_EQ(table_->model()->rowCount(), 1);
 }
 
-TEST_F(ConfigurationPanelTest, ComparesWithTheChosenProfile) {
+TEST_F(ConfigurationPanelTest, ComparesWithTheChosenProfile_WhichSetsEverything) {
   panel_.setOptions(QStringLiteral("paper"), defaultProfile());
   EXPECT_EQ(table_->options().changedCount(),
             static_cast<int>(sessions::changedOptions(defaultProfile(), paperProfile()).size()));
   EXPECT_GT(table_->options().changedCount(), 0);
+  panel_.setOptions(QStringLiteral("default"), defaultProfile());
+  auto* box = panel_.findChild<QComboBox*>();
+  box->setFocus();
+  QTest::keyClicks(box, QStringLiteral("paper"));
+  EXPECT_GE(edits_, 1);
+  EXPECT_EQ(profile_, QStringLiteral("paper"));
+  EXPECT_TRUE(sessions::changedOptions(options_, paperProfile()).empty());
 }
 
 TEST_F(ConfigurationPanelTest, AClickResetsARow) {
-  LocalizerOptions options;
-  options.loop.max_iterations = 7;
-  panel_.setOptions(QStringLiteral("default"), options);
+  panel_.setOptions(QStringLiteral("default"), sevenIterations());
   EXPECT_EQ(edits_, 0) << "the document is no person";
   const QModelIndex reset = find(QStringLiteral("loop.max_iterations"), OptionsModel::kReset);
   table_->scrollTo(reset);
@@ -144,22 +148,11 @@ TEST_F(ConfigurationPanelTest, AClickResetsARow) {
   EXPECT_EQ(options_.loop.max_iterations, LoopOptions().max_iterations);
 }
 
-TEST_F(ConfigurationPanelTest, AProfileSetsEverything) {
-  auto* box = panel_.findChild<QComboBox*>();
-  box->setFocus();
-  QTest::keyClicks(box, QStringLiteral("paper"));
-  EXPECT_GE(edits_, 1);
-  EXPECT_EQ(profile_, QStringLiteral("paper"));
-  EXPECT_TRUE(sessions::changedOptions(options_, paperProfile()).empty());
-}
-
-TEST_F(ConfigurationPanelTest, SaysThatTheShownRunIsStale) {
+TEST_F(ConfigurationPanelTest, SaysThatTheShownRunIsStale_NotForTheCasesFeatureSize) {
   EXPECT_FALSE(stale_->isVisible());
   view_.setSnapshot(test::exampleRun());
   EXPECT_FALSE(stale_->isVisible());
-  LocalizerOptions options;
-  options.loop.max_iterations = 7;
-  panel_.setOptions(QStringLiteral("default"), options);
+  panel_.setOptions(QStringLiteral("default"), sevenIterations());
   EXPECT_TRUE(stale_->isVisible());
   EXPECT_EQ(panel_.differences(), QStringList{QStringLiteral("loop.max_iterations (was 10)")});
   QSignalSpy asked(&panel_, &ConfigurationPanel::runAgainRequested);
@@ -167,9 +160,6 @@ TEST_F(ConfigurationPanelTest, SaysThatTheShownRunIsStale) {
   EXPECT_EQ(asked.count(), 1);
   panel_.setOptions(QStringLiteral("default"), defaultProfile());
   EXPECT_FALSE(stale_->isVisible());
-}
-
-TEST_F(ConfigurationPanelTest, ACasesFeatureSizeIsNoDifference) {
   auto run = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
   run->options.templates.feature_size_m = 0.015;
   view_.setSnapshot(run);
@@ -178,7 +168,7 @@ TEST_F(ConfigurationPanelTest, ACasesFeatureSizeIsNoDifference) {
   EXPECT_FALSE(stale_->isVisible());
 }
 
-class OptionsModelTest : public testing::Test {
+class OptionsModelTest : public test::TestedModel<OptionsModel> {
  protected:
   OptionsModelTest() {
     show({});
@@ -197,9 +187,7 @@ class OptionsModelTest : public testing::Test {
     return model_.index(model_.firstRow(is_named), column);
   }
 
-  OptionsModel model_;
   std::vector<std::pair<std::string, std::string>> edits_;
-  QAbstractItemModelTester tester_{&model_, QAbstractItemModelTester::FailureReportingMode::Fatal};
 };
 
 TEST_F(OptionsModelTest, HasARowForEveryOptionOfARun) {
@@ -217,20 +205,6 @@ TEST_F(OptionsModelTest, HasARowForEveryOptionOfARun) {
   EXPECT_EQ(model_.changedCount(), 0);
 }
 
-TEST_F(OptionsModelTest, ReportsValuesOfEveryKindAndKeepsItsOwn) {
-  EXPECT_TRUE(model_.setData(find("loop.max_iterations"), QStringLiteral("7")));
-  EXPECT_TRUE(model_.setData(find("loop.inlier_threshold_px"), QStringLiteral(" 2.5 ")));
-  EXPECT_TRUE(model_.setData(find("refinement.enabled"), Qt::Unchecked, Qt::CheckStateRole));
-  using Edits = decltype(edits_);
-  EXPECT_EQ(edits_, (Edits{{"loop.max_iterations", "7"},
-                           {"loop.inlier_threshold_px", "2.5"},
-                           {"refinement.enabled", "false"}}));
-  EXPECT_EQ(model_.changedCount(), 0);
-  const QString before = find("loop.max_iterations").data().toString();
-  EXPECT_TRUE(model_.setData(find("loop.max_iterations"), before));
-  EXPECT_EQ(edits_.size(), 3u) << "the same value is no edit";
-}
-
 TEST_F(OptionsModelTest, LongValues_AreRoundedForReadingAndWholeForEditing) {
   LocalizerOptions options;
   options.loop.inlier_threshold_px = 1.23456789012;
@@ -243,10 +217,16 @@ TEST_F(OptionsModelTest, LongValues_AreRoundedForReadingAndWholeForEditing) {
   EXPECT_TRUE(edits_.empty()) << "an editor that is opened and closed changes nothing";
 }
 
+TEST_F(OptionsModelTest, ReportsTrimmedValuesAndKeepsItsOwn) {
+  EXPECT_TRUE(model_.setData(find("loop.inlier_threshold_px"), QStringLiteral(" 2.5 ")));
+  EXPECT_TRUE(model_.setData(find("refinement.enabled"), Qt::Unchecked, Qt::CheckStateRole));
+  using Edits = decltype(edits_);
+  EXPECT_EQ(edits_, (Edits{{"loop.inlier_threshold_px", "2.5"}, {"refinement.enabled", "false"}}));
+  EXPECT_EQ(model_.changedCount(), 0);
+}
+
 TEST_F(OptionsModelTest, MarksAndResetsWhatDiffersFromTheDefault) {
-  LocalizerOptions options;
-  options.loop.max_iterations = 7;
-  show(options);
+  show(sevenIterations());
   EXPECT_EQ(model_.changedCount(), 1);
   EXPECT_TRUE(find("loop.max_iterations").data(Qt::FontRole).value<QFont>().bold());
   EXPECT_FALSE(find("loop.max_attempts").data(Qt::FontRole).value<QFont>().bold());

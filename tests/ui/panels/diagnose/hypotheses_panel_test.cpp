@@ -21,9 +21,7 @@ class HypothesesPanelTest : public testing::Test {
   HypothesesPanelTest() {
     panel_.resize(900, 260);
     panel_.show();
-    run_ = test::runWithHypotheses();
     view_.setSnapshot(run_);
-    last_ = static_cast<int>(run_->iterations.size()) - 1;
   }
   QTableView& table() const { return *panel_.findChild<QTableView*>(QStringLiteral("hypotheses")); }
   void clickRow(int row) {
@@ -33,17 +31,14 @@ class HypothesesPanelTest : public testing::Test {
 
   ViewState view_;
   HypothesesPanel panel_{view_};
-  std::shared_ptr<const sessions::LocalizationTrace> run_;
-  int last_ = 0;
+  std::shared_ptr<const sessions::LocalizationTrace> run_ = test::runWithHypotheses();
+  int last_ = static_cast<int>(run_->iterations.size()) - 1;
 };
 
-TEST_F(HypothesesPanelTest, NothingIsChosenAtFirst) {
+TEST_F(HypothesesPanelTest, NothingIsChosenAtFirst_ACompetingPoseIsShownWithTheResult) {
   EXPECT_EQ(panel_.model().rowCount(), 4);
   EXPECT_FALSE(view_.alternative());
   EXPECT_FALSE(table().currentIndex().isValid());
-}
-
-TEST_F(HypothesesPanelTest, ACompetingPoseIsShownWithTheResult) {
   clickRow(1);
   ASSERT_TRUE(view_.alternative());
   EXPECT_EQ(view_.alternative()->camera_from_station, run_->competing_poses[1].camera_from_station);
@@ -75,41 +70,37 @@ TEST_F(HypothesesPanelTest, GoingElsewhereTakesItAway) {
             static_cast<int>(run->competing_poses.size() + run->hypotheses.size()));
 }
 
-class AlternativesModelTest : public testing::Test {
- protected:
-  AlternativesModelTest() {
-    model_.setRows(sessions::alternativesOf(*test::runWithHypotheses()), false);
-  }
-  QString text(int row, int column) const { return model_.index(row, column).data().toString(); }
-
-  AlternativesModel model_;
-  Tester tester_{&model_, Tester::FailureReportingMode::Fatal};
-};
-
-TEST_F(AlternativesModelTest, ListsCompetingPosesThenComparedPoses) {
-  ASSERT_EQ(model_.rowCount(), 4);
-  EXPECT_EQ(text(0, AlternativesModel::kPose), QStringLiteral("Competing pose 1"));
-  EXPECT_EQ(text(1, AlternativesModel::kPose), QStringLiteral("Competing pose 2"));
-  EXPECT_EQ(text(2, AlternativesModel::kPose), QStringLiteral("Candidate 2")) << "the competitor";
-  EXPECT_EQ(text(3, AlternativesModel::kPose), QStringLiteral("Candidate 1"));
-  EXPECT_EQ(text(0, AlternativesModel::kIteration), QStringLiteral("result"));
-  EXPECT_EQ(model_.firstRowOf(1), -1);
-  EXPECT_EQ(model_.firstRowOf(-1), -1) << "competing poses are of no iteration";
-}
-
-TEST_F(AlternativesModelTest, TellsHowEachEndedAndByHowMuch) {
-  EXPECT_EQ(text(0, AlternativesModel::kEnded), QStringLiteral("not chosen"));
-  EXPECT_EQ(text(0, AlternativesModel::kMargin_nats), QStringLiteral("more than 1000 times"));
-  EXPECT_EQ(text(0, AlternativesModel::kSimilarity), QStringLiteral("0.45"));
-  EXPECT_EQ(text(0, AlternativesModel::kApart_mm), QStringLiteral("22.00"));
-  EXPECT_EQ(text(0, AlternativesModel::kInliers), QString());
-  EXPECT_EQ(text(3, AlternativesModel::kEnded), QStringLiteral("chosen"));
-  EXPECT_EQ(text(3, AlternativesModel::kScore), QStringLiteral("9.00"));
-  EXPECT_EQ(text(3, AlternativesModel::kProbability), QStringLiteral("90.0 %"));
-  EXPECT_TRUE(model_.index(3, 0).data(Qt::FontRole).value<QFont>().bold());
-  EXPECT_FALSE(model_.index(2, 0).data(Qt::FontRole).isValid());
-  EXPECT_EQ(text(2, AlternativesModel::kEnded), QStringLiteral("not chosen"));
-  EXPECT_EQ(text(2, AlternativesModel::kApart_deg), QStringLiteral("17.19"));
+TEST(AlternativesModel, ListsCompetingThenComparedPosesAndHowEachEnded) {
+  using Model = AlternativesModel;
+  Model model;
+  const Tester tester(&model, Tester::FailureReportingMode::Fatal);
+  model.setRows(sessions::alternativesOf(*test::runWithHypotheses()), false);
+  ASSERT_EQ(model.rowCount(), 4);
+  const struct {
+    int row;
+    int column;
+    const char* text;
+  } cells[] = {{0, Model::kPose, "Competing pose 1"},
+               {0, Model::kIteration, "result"},
+               {0, Model::kEnded, "not chosen"},
+               {0, Model::kMargin_nats, "more than 1000 times"},
+               {0, Model::kSimilarity, "0.45"},
+               {0, Model::kApart_mm, "22.00"},
+               {0, Model::kInliers, ""},
+               {1, Model::kPose, "Competing pose 2"},
+               {2, Model::kPose, "Candidate 2"},  // the competitor
+               {2, Model::kEnded, "not chosen"},
+               {2, Model::kApart_deg, "17.19"},
+               {3, Model::kPose, "Candidate 1"},
+               {3, Model::kEnded, "chosen"},
+               {3, Model::kScore, "9.00"},
+               {3, Model::kProbability, "90.0 %"}};
+  for (const auto& [row, column, text] : cells)
+    EXPECT_EQ(model.index(row, column).data().toString().toStdString(), text) << row << column;
+  EXPECT_TRUE(model.index(3, 0).data(Qt::FontRole).value<QFont>().bold());
+  EXPECT_FALSE(model.index(2, 0).data(Qt::FontRole).isValid());
+  EXPECT_EQ(model.firstRowOf(1), -1);
+  EXPECT_EQ(model.firstRowOf(-1), -1) << "competing poses are of no iteration";
 }
 
 }  // namespace

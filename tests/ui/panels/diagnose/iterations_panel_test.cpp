@@ -9,13 +9,12 @@
 
 #include "core/base/math.h"
 #include "tests/support/example_run.h"
+#include "tests/ui/models/tested_model.h"
 #include "ui/plots/plots.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
-
-using Tester = QAbstractItemModelTester;
 
 class IterationsPanelTest : public testing::Test {
  protected:
@@ -24,7 +23,6 @@ class IterationsPanelTest : public testing::Test {
     panel_.show();
     scrubber_.show();
     view_.setSnapshot(test::exampleRun());
-    last_ = static_cast<int>(test::exampleRun()->iterations.size()) - 1;
   }
 
   template <class T>
@@ -41,22 +39,32 @@ class IterationsPanelTest : public testing::Test {
   ViewState view_;
   IterationsPanel panel_{view_};
   RunScrubber scrubber_{view_};
-  int last_ = 0;
+  int last_ = static_cast<int>(test::exampleRun()->iterations.size()) - 1;
 };
 
-TEST_F(IterationsPanelTest, FollowsTheRunToItsEnd) {
+TEST_F(IterationsPanelTest, TableAndSliderFollowTheRunAndMoveTheCursor) {
+  const auto* table = child<QTableView>("iterations");
+  auto* slider = child<QSlider>("iterations");
   EXPECT_EQ(view_.cursor().iteration, last_);
-  EXPECT_EQ(child<QTableView>("iterations")->currentIndex().row(), last_ + 1);
-  EXPECT_EQ(child<QSlider>("iterations")->value(), last_);
+  EXPECT_EQ(table->currentIndex().row(), last_ + 1);
+  EXPECT_EQ(slider->value(), last_);
+  clickRow(2);
+  EXPECT_EQ(view_.cursor(), (RunCursor{1, Stage::kFinished}));
+  EXPECT_EQ(slider->value(), 1);
+  clickRow(0);
+  EXPECT_EQ(view_.cursor().iteration, -1);
+  view_.setCursor({0, Stage::kMatch});
+  EXPECT_EQ(table->currentIndex().row(), 1);
+  EXPECT_EQ(view_.cursor().stage, Stage::kMatch) << "showing the cursor must not move it";
+  QTest::keyClick(slider, Qt::Key_Home);
+  EXPECT_EQ(view_.cursor().iteration, -1);
+  QTest::keyClick(slider, Qt::Key_Right);
+  EXPECT_EQ(view_.cursor().iteration, 0);
 }
 
 /// Of a run that has just begun there is only the seed's row.
 TEST_F(IterationsPanelTest, Hint_DuringTheFirstStageDoesNotAskToRun) {
-  auto begun = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
-  begun->iterations.clear();
-  begun->status = LocalizationStatus::kRunning;
-  begun->finished = false;
-  view_.setSnapshot(begun);
+  view_.setSnapshot(test::firstIterations(*test::exampleRun(), 0));
   auto* hint = child<EmptyHint>("emptyHint");
   EXPECT_TRUE(hint->isVisible());
   EXPECT_FALSE(hint->text().contains(QStringLiteral("F5"))) << hint->text().toStdString();
@@ -64,52 +72,24 @@ TEST_F(IterationsPanelTest, Hint_DuringTheFirstStageDoesNotAskToRun) {
   EXPECT_GT(hint->y(), table->visualRect(table->model()->index(0, 0)).center().y());
 }
 
-TEST_F(IterationsPanelTest, AClickOnARowMovesTheCursor) {
-  clickRow(2);
-  EXPECT_EQ(view_.cursor(), (RunCursor{1, Stage::kFinished}));
-  EXPECT_EQ(child<QSlider>("iterations")->value(), 1);
-  clickRow(0);
-  EXPECT_EQ(view_.cursor().iteration, -1);
-}
-
-TEST_F(IterationsPanelTest, TheTableFollowsTheCursor) {
-  view_.setCursor({0, Stage::kMatch});
-  EXPECT_EQ(child<QTableView>("iterations")->currentIndex().row(), 1);
-  EXPECT_EQ(view_.cursor().stage, Stage::kMatch) << "showing the cursor must not move it";
-}
-
-TEST_F(IterationsPanelTest, KeysMoveTheSlider) {
-  auto* slider = child<QSlider>("iterations");
-  QTest::keyClick(slider, Qt::Key_Home);
-  EXPECT_EQ(view_.cursor().iteration, -1);
-  QTest::keyClick(slider, Qt::Key_Right);
-  EXPECT_EQ(view_.cursor().iteration, 0);
-}
-
-TEST_F(IterationsPanelTest, ActionsWalkThroughTheRun) {
-  RunScrubber& scrubber = scrubber_;
+TEST_F(IterationsPanelTest, ActionsAndStageButtonsWalkThroughTheRun) {
   using Step = RunScrubber::Step;
-  EXPECT_FALSE(scrubber.action(Step::kNext)->isEnabled());
-  scrubber.action(Step::kFirst)->trigger();
+  EXPECT_FALSE(scrubber_.action(Step::kNext)->isEnabled());
+  scrubber_.action(Step::kFirst)->trigger();
   EXPECT_EQ(view_.cursor().iteration, -1);
-  EXPECT_FALSE(scrubber.action(Step::kPrevious)->isEnabled());
-  scrubber.action(Step::kNextStage)->trigger();
+  EXPECT_FALSE(scrubber_.action(Step::kPrevious)->isEnabled());
+  scrubber_.action(Step::kNextStage)->trigger();
   EXPECT_EQ(view_.cursor(), (RunCursor{0, Stage::kRender}));
-  scrubber.action(Step::kNext)->trigger();
+  scrubber_.action(Step::kNext)->trigger();
   EXPECT_EQ(view_.cursor(), (RunCursor{1, Stage::kFinished}));
-  scrubber.action(Step::kPreviousStage)->trigger();
+  scrubber_.action(Step::kPreviousStage)->trigger();
   EXPECT_EQ(view_.cursor().iteration, 1);
   EXPECT_NE(view_.cursor().stage, Stage::kFinished);
-  scrubber.action(Step::kLast)->trigger();
+  scrubber_.action(Step::kLast)->trigger();
   EXPECT_EQ(view_.cursor().iteration, last_);
-}
-
-TEST_F(IterationsPanelTest, AStageButtonShowsThatStage) {
   view_.setCursor({0, Stage::kFinished});
-  for (auto* button : scrubber_.findChildren<QToolButton*>()) {
-    if (button->text() != QStringLiteral("Match")) continue;
-    QTest::mouseClick(button, Qt::LeftButton);
-  }
+  for (auto* button : scrubber_.findChildren<QToolButton*>())
+    if (button->text() == QStringLiteral("Match")) QTest::mouseClick(button, Qt::LeftButton);
   EXPECT_EQ(view_.cursor(), (RunCursor{0, Stage::kMatch}));
 }
 
@@ -146,11 +126,10 @@ TEST(StageSteps, WalkThroughARunAndBackAgain) {
     way.push_back(next);
     ASSERT_LE(way.size(), 1000u);
   }
-  EXPECT_EQ(way.size(), stages + 1);
-  EXPECT_EQ(way[1], (RunCursor{0, Stage::kRender}));
-  EXPECT_EQ(way[2], (RunCursor{0, Stage::kTemplates}));
-  EXPECT_EQ(way[3], (RunCursor{0, Stage::kMatch}));
-  EXPECT_EQ(way[4], (RunCursor{0, Stage::kFinished}));
+  ASSERT_EQ(way.size(), stages + 1);
+  std::size_t at = 0;
+  for (const Stage stage : {Stage::kRender, Stage::kTemplates, Stage::kMatch, Stage::kFinished})
+    EXPECT_EQ(way[++at], (RunCursor{0, stage}));
   for (std::size_t i = way.size() - 1; i > 0; --i)
     EXPECT_EQ(stageFrom(*run, way[i], -1), way[i - 1]) << i;
   EXPECT_EQ(stageFrom(*run, way[0], -1), way[0]);
@@ -164,25 +143,28 @@ TEST(StageSteps, EndWhereAnIterationUnderWayIs) {
   EXPECT_EQ(shownStage(stagesOf(iteration), Stage::kRender), 0);
 }
 
-class IterationsModelTest : public testing::Test {
+class IterationsModelTest : public test::TestedModel<IterationsModel> {
  protected:
-  QString text(int row, int column) const { return model_.index(row, column).data().toString(); }
+  using RunPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
-  IterationsModel model_;
-  Tester tester_{&model_, Tester::FailureReportingMode::Fatal};
-  std::shared_ptr<const sessions::LocalizationTrace> run_ = test::exampleRun();
+  /// A copy of a run with one iteration changed.
+  template <class Change>
+  static std::shared_ptr<sessions::LocalizationTrace> edited(const RunPtr& run, std::size_t index,
+                                                             Change change) {
+    auto copy = std::make_shared<sessions::LocalizationTrace>(*run);
+    test::editIteration(*copy, index, change);
+    return copy;
+  }
+
+  RunPtr run_ = test::exampleRun();
 };
 
-TEST_F(IterationsModelTest, HasARowForTheSeedAndOnePerIteration) {
+TEST_F(IterationsModelTest, HasARowForTheSeedAndOneWithTheFiguresOfEachIteration) {
   EXPECT_EQ(model_.rowCount(), 0);
   model_.setSnapshot(run_);
   ASSERT_EQ(model_.rowCount(), static_cast<int>(run_->iterations.size()) + 1);
   EXPECT_EQ(text(0, IterationsModel::kNumber), QStringLiteral("seed"));
   EXPECT_EQ(text(1, IterationsModel::kNumber), QStringLiteral("1.1"));
-}
-
-TEST_F(IterationsModelTest, ShowsTheFiguresOfTheRun) {
-  model_.setSnapshot(run_);
   for (std::size_t i = 0; i < run_->iterations.size(); ++i) {
     const sessions::IterationTrace& iteration = *run_->iterations[i];
     const int index = static_cast<int>(i);
@@ -199,25 +181,20 @@ TEST_F(IterationsModelTest, ShowsTheFiguresOfTheRun) {
     EXPECT_EQ(text(index + 1, IterationsModel::kThreshold_px).toDouble(),
               std::round(10.0 * iteration.threshold_px) / 10.0);
   }
-  const int last = model_.rowCount() - 1;
-  EXPECT_EQ(text(last, IterationsModel::kStatus), QStringLiteral("converged"));
+  EXPECT_EQ(text(model_.rowCount() - 1, IterationsModel::kStatus), QStringLiteral("converged"));
   EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("continued"));
 }
 
 TEST_F(IterationsModelTest, SaysWhichHypothesisAnIterationWentOnWith) {
-  auto snapshot = std::make_shared<sessions::LocalizationTrace>(*run_);
-  auto rolled = std::make_shared<sessions::IterationTrace>(*snapshot->iterations.front());
-  rolled->hypotheses.assign(2, HypothesisSummary{});
-  rolled->hypotheses[1].roll_rad = -40.0 * kDegree_rad;
-  rolled->hypotheses[1].solved = true;
-  rolled->chosen_hypothesis = 1;
-  snapshot->iterations.front() = rolled;
-  model_.setSnapshot(snapshot);
-  EXPECT_EQ(text(1, IterationsModel::kHypothesis), QStringLiteral("-40.0 deg (of 2)"));
-  const QStringList lines = model_.index(1, IterationsModel::kHypothesis)
-                                .data(Qt::ToolTipRole)
-                                .toString()
-                                .split(QLatin1Char('\n'));
+  model_.setSnapshot(edited(run_, 0, [](sessions::IterationTrace& rolled) {
+    rolled.hypotheses.assign(2, HypothesisSummary{});
+    rolled.hypotheses[1].roll_rad = -40.0 * kDegree_rad;
+    rolled.hypotheses[1].solved = true;
+    rolled.chosen_hypothesis = 1;
+  }));
+  const QModelIndex hypothesis = model_.index(1, IterationsModel::kHypothesis);
+  EXPECT_EQ(hypothesis.data().toString(), QStringLiteral("-40.0 deg (of 2)"));
+  const QStringList lines = hypothesis.data(Qt::ToolTipRole).toString().split(QLatin1Char('\n'));
   ASSERT_EQ(lines.size(), 2);
   EXPECT_TRUE(lines[0].contains(QStringLiteral("no pose")));
   EXPECT_TRUE(lines[1].endsWith(QStringLiteral("(chosen)")));
@@ -243,10 +220,8 @@ TEST_F(IterationsModelTest, AppendsWhatARunAddsAndKeepsSelections) {
 }
 
 TEST_F(IterationsModelTest, TheIterationUnderWayChangesInPlace) {
-  auto halted = std::make_shared<sessions::LocalizationTrace>(*test::firstIterations(*run_, 2));
-  auto early = std::make_shared<sessions::IterationTrace>(*halted->iterations.back());
-  early->reached = Stage::kRender;
-  halted->iterations.back() = early;
+  const auto halted = edited(test::firstIterations(*run_, 2), 1,
+                             [](auto& iteration) { iteration.reached = Stage::kRender; });
   halted->last_under_way = true;
   model_.setSnapshot(halted);
   EXPECT_EQ(text(2, IterationsModel::kInliers), QString());
@@ -257,13 +232,12 @@ TEST_F(IterationsModelTest, TheIterationUnderWayChangesInPlace) {
 }
 
 TEST_F(IterationsModelTest, MissingValues_AreBlank) {
-  auto run = std::make_shared<sessions::LocalizationTrace>(*test::firstIterations(*run_, 1));
-  auto early = std::make_shared<sessions::IterationTrace>(*run->iterations.front());
-  early->reached = Stage::kTemplates;
-  run->iterations.front() = early;
+  const auto run = edited(test::firstIterations(*run_, 1), 0,
+                          [](auto& iteration) { iteration.reached = Stage::kTemplates; });
   run->last_under_way = true;
   model_.setSnapshot(run);
-  EXPECT_EQ(text(1, IterationsModel::kTemplates), QString::number(early->template_count));
+  EXPECT_EQ(text(1, IterationsModel::kTemplates),
+            QString::number(run->iterations.front()->template_count));
   for (const int column :
        {IterationsModel::kMatches, IterationsModel::kInliers, IterationsModel::kTranslation_mm,
         IterationsModel::kBestScore, IterationsModel::kRms_px})
@@ -273,11 +247,8 @@ TEST_F(IterationsModelTest, MissingValues_AreBlank) {
 
 TEST_F(IterationsModelTest, CountsIterationsWithinTheirAttempt) {
   auto run = std::make_shared<sessions::LocalizationTrace>(*run_);
-  for (std::size_t i = 1; i < run->iterations.size(); ++i) {
-    auto second = std::make_shared<sessions::IterationTrace>(*run->iterations[i]);
-    second->attempt = 1;
-    run->iterations[i] = second;
-  }
+  for (std::size_t i = 1; i < run->iterations.size(); ++i)
+    test::editIteration(*run, i, [](auto& iteration) { iteration.attempt = 1; });
   model_.setSnapshot(run);
   EXPECT_EQ(model_.iterationName(0), QStringLiteral("1.1"));
   EXPECT_EQ(model_.iterationName(1), QStringLiteral("2.1"));

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <QAbstractItemModelTester>
 #include <QtTest/QTest>
 #include <QtWidgets>
 
 #include "tests/support/example_run.h"
+#include "tests/ui/models/tested_model.h"
 #include "ui/panels/diagnose/match_view.h"
 #include "ui/panels/diagnose/pixel_picture.h"
 #include "ui/plots/plot_colors.h"
@@ -20,7 +20,6 @@ namespace boresight::ui {
 namespace {
 
 using Show = TemplatesModel::Show;
-using Tester = QAbstractItemModelTester;
 
 class MatchInspectorPanelTest : public testing::Test {
  protected:
@@ -29,8 +28,6 @@ class MatchInspectorPanelTest : public testing::Test {
     panel_.show();
     view_.setSnapshot(test::exampleRun());
     view_.setCursor({0, Stage::kFinished});
-    table_ = panel_.findChild<QTableView*>(QStringLiteral("templates"));
-    map_ = panel_.findChild<ScoreMapView*>();
   }
 
   void clickRow(int row) {
@@ -42,23 +39,19 @@ class MatchInspectorPanelTest : public testing::Test {
   void choose(TemplatesModel::Show show) {
     panel_.findChild<QComboBox*>()->setCurrentIndex(static_cast<int>(show));
   }
-  const Match& match(int index) const {
-    return view_.iteration()->matches[static_cast<std::size_t>(index)];
-  }
 
   ViewState view_;
   MatchInspectorPanel panel_{view_};
-  QTableView* table_ = nullptr;
-  ScoreMapView* map_ = nullptr;
+  QTableView* table_ = panel_.findChild<QTableView*>(QStringLiteral("templates"));
+  ScoreMapView* map_ = panel_.findChild<ScoreMapView*>();
 };
 
 TEST_F(MatchInspectorPanelTest, AClickChoosesATemplate) {
   EXPECT_EQ(view_.selectedTemplate(), -1);
   clickRow(3);
   EXPECT_EQ(view_.selectedTemplate(), 3);
-  EXPECT_TRUE(panel_.findChild<QLabel*>(QStringLiteral("places"))
-                  ->text()
-                  .contains(QStringLiteral("Template 4")));
+  const auto* places = panel_.findChild<QLabel*>(QStringLiteral("places"));
+  EXPECT_TRUE(places->text().contains(QStringLiteral("Template 4")));
   for (PixelPicture* picture : panel_.findChildren<PixelPicture*>()) {
     if (picture == map_) continue;  // it comes later, in its own size
     EXPECT_EQ(picture->picture().width(), view_.iteration()->template_side_px);
@@ -75,37 +68,23 @@ TEST_F(MatchInspectorPanelTest, SelectionInAnotherView_IsShown) {
   EXPECT_EQ(panel_.filter().mapToSource(table_->currentIndex()).row(), 7);
 }
 
-TEST_F(MatchInspectorPanelTest, TheScoreMapComesAndIsTheLatestChosen) {
-  view_.selectTemplate(1);
-  view_.selectTemplate(2);
-  view_.selectTemplate(5);
+TEST_F(MatchInspectorPanelTest, TheScoreMapIsOfTheLatestChosen_ItsPeakIsTheBrightestPlace) {
+  for (const int chosen : {1, 2, 5}) view_.selectTemplate(chosen);
   ASSERT_TRUE(QTest::qWaitFor([this] { return map_->map() != nullptr; }, 20000));
   const auto expected = sessions::scoreMap(*view_.snapshot()->edges, *view_.iteration(), 5);
   ASSERT_TRUE(expected);
   EXPECT_EQ(map_->map()->counts, expected->counts);
-  view_.selectTemplate(-1);
-  EXPECT_EQ(map_->map(), nullptr);
-}
-
-TEST_F(MatchInspectorPanelTest, ThePeakIsTheBrightestPlaceOfTheMap) {
-  view_.selectTemplate(5);
-  ASSERT_TRUE(QTest::qWaitFor([this] { return map_->map() != nullptr; }, 20000));
-  const WhsPeak& peak = match(5).peak;
-  const SearchWindow& window = match(5).window;
-  EXPECT_EQ(map_->picture().pixel(peak.x - window.x_min, peak.y - window.y_min),
+  const Match& match = view_.iteration()->matches[5];
+  const WhsPeak& peak = match.peak;
+  EXPECT_EQ(map_->picture().pixel(peak.x - match.window.x_min, peak.y - match.window.y_min),
             qRgb(253, 231, 37));
   const QString text = map_->textAt(map_->toWidget(peak.x, peak.y));
   EXPECT_TRUE(text.contains(
-      QStringLiteral("S+/c+ = %1/%2").arg(peak.counts.edge_hits).arg(match(5).norms.edges)))
+      QStringLiteral("S+/c+ = %1/%2").arg(peak.counts.edge_hits).arg(match.norms.edges)))
       << text.toStdString();
   EXPECT_TRUE(map_->textAt({0.0, 0.0}).isEmpty());
-}
-
-TEST_F(MatchInspectorPanelTest, DestroyedPanel_DropsItsTasks) {
-  auto other = std::make_unique<MatchInspectorPanel>(view_);
-  view_.selectTemplate(8);
-  other.reset();
-  QTest::qWait(20);
+  view_.selectTemplate(-1);
+  EXPECT_EQ(map_->map(), nullptr);
 }
 
 TEST_F(MatchInspectorPanelTest, ARefinementShowsItsEdges) {
@@ -132,10 +111,10 @@ TEST_F(MatchInspectorPanelTest, WithoutMatches_ReportsTheReason) {
   EXPECT_FALSE(table_->isVisible());
   view_.setCase(nullptr);
   EXPECT_FALSE(table_->isVisible());
-  bool said = false;
-  for (const QLabel* label : panel_.findChildren<QLabel*>())
-    said |= label->isVisible() && label->text() == QStringLiteral("No run yet.");
-  EXPECT_TRUE(said);
+  const auto labels = panel_.findChildren<QLabel*>();
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+    return label->isVisible() && label->text() == QStringLiteral("No run yet.");
+  }));
 }
 
 /// A binary image from rows of text: '#' is set.
@@ -159,11 +138,11 @@ Bits seen({"......", "......", "...#..", "..##..", "......"});
 TEST(PatchPictures, ShowEdgesOverMask) {
   const QImage picture = templatePicture(edges.view(), mask.view(), {2, 2, 4});
   ASSERT_EQ(picture.size(), QSize(4, 4));
-  EXPECT_EQ(picture.pixel(2, 1), patch_colors::kEdge);
-  EXPECT_EQ(picture.pixel(2, 2), patch_colors::kEdge);
+  for (const QPoint& edge : {QPoint(2, 1), QPoint(2, 2)})
+    EXPECT_EQ(picture.pixel(edge), patch_colors::kEdge);
   EXPECT_EQ(picture.pixel(1, 1), patch_colors::kMask);
-  EXPECT_EQ(picture.pixel(0, 0), patch_colors::kGround);
-  EXPECT_EQ(picture.pixel(1, 3), patch_colors::kGround);
+  for (const QPoint& ground : {QPoint(0, 0), QPoint(1, 3)})
+    EXPECT_EQ(picture.pixel(ground), patch_colors::kGround);
 }
 
 TEST(PatchPictures, Colours_SeparateRenderedAndSeenEdges) {
@@ -185,8 +164,7 @@ TEST(PatchPictures, GroundLiesOutsideTheImage) {
 }
 
 TEST(PixelPlace, EnlargesByWholeDevicePixelsWhereItCan) {
-  const QRectF place = pixelPlace({10, 10}, {0, 0, 47, 99}, 1.0);
-  EXPECT_EQ(place.size(), QSizeF(40, 40));
+  EXPECT_EQ(pixelPlace({10, 10}, {0, 0, 47, 99}, 1.0).size(), QSizeF(40, 40));
   EXPECT_EQ(pixelPlace({10, 10}, {0, 0, 47, 99}, 2.0).size(), QSizeF(45, 45));
   EXPECT_EQ(pixelPlace({100, 10}, {0, 0, 50, 50}, 1.0), QRectF(0, 23, 50, 5));
 }
@@ -207,21 +185,7 @@ const sessions::IterationTrace& firstIteration() {
   return *test::exampleRunOfSeed()->iterations.front();
 }
 
-class TemplatesModelTest : public testing::Test {
- protected:
-  TemplatesModelTest() { filter_.setSourceModel(&model_); }
-
-  QString text(int row, int column) const { return model_.index(row, column).data().toString(); }
-  int countOf(Show show) {
-    filter_.setCondition([this, show](int row) { return model_.isShown(row, show); });
-    return filter_.rowCount();
-  }
-
-  TemplatesModel model_;
-  RowsFilter filter_;
-  Tester model_tester_{&model_, Tester::FailureReportingMode::Fatal};
-  Tester filter_tester_{&filter_, Tester::FailureReportingMode::Fatal};
-};
+using TemplatesModelTest = test::TestedModel<TemplatesModel>;
 
 TEST_F(TemplatesModelTest, HasARowPerTemplate) {
   model_.setIteration(&firstIteration());
@@ -247,20 +211,20 @@ TEST_F(TemplatesModelTest, FiltersByWhatBecameOfATemplate) {
   EXPECT_EQ(countOf(Show::kInliers), iteration.pnp.inlier_count);
   EXPECT_EQ(countOf(Show::kOutliers), iteration.correspondence_count - iteration.pnp.inlier_count);
   EXPECT_EQ(countOf(Show::kNotSearched), iteration.template_count - iteration.searched_count);
-  const auto at_border = std::count_if(iteration.matches.begin(), iteration.matches.end(),
-                                       [](const Match& match) { return match.at_border; });
-  EXPECT_EQ(countOf(Show::kAtBorder), at_border);
+  int at_border = 0;
   int low = 0;
   for (const Match& match : iteration.matches) {
+    at_border += match.at_border ? 1 : 0;
     const auto best = static_cast<double>(whsComparable(match.peak.counts, match.norms));
     const auto second = static_cast<double>(whsComparable(match.peak.second_counts, match.norms));
     low += match.searched && match.peak.has_second && second > 0.95 * best ? 1 : 0;
   }
+  EXPECT_EQ(countOf(Show::kAtBorder), at_border);
   EXPECT_EQ(countOf(Show::kLowMargin), low);
   EXPECT_GT(low, 0);
 }
 
-TEST_F(TemplatesModelTest, WhatWasNotSearchedIsNoOutlier) {
+TEST_F(TemplatesModelTest, WhatWasNotSearchedIsNoOutlier_NothingIsSaidBeforeTheMatches) {
   sessions::IterationTrace early = firstIteration();
   early.matches[2].searched = false;
   early.reached = Stage::kMatch;  // nothing is solved yet
@@ -270,10 +234,6 @@ TEST_F(TemplatesModelTest, WhatWasNotSearchedIsNoOutlier) {
   EXPECT_EQ(countOf(Show::kInliers), 0);
   EXPECT_EQ(text(2, TemplatesModel::kVerdict), QStringLiteral("not searched"));
   EXPECT_EQ(text(3, TemplatesModel::kVerdict), QStringLiteral("found"));
-}
-
-TEST_F(TemplatesModelTest, SaysNothingOfMatchesBeforeTheyAreThere) {
-  sessions::IterationTrace early = firstIteration();
   early.reached = Stage::kTemplates;
   early.matches.clear();
   model_.setIteration(&early);
