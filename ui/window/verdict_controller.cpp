@@ -82,8 +82,8 @@ void VerdictController::follow() {
   connect(&workspaces_, &Workspaces::changed, this, soon);
   // The bar is green only once the checks have passed.
   const auto follow_runs = [this, &review] {
-    review.setFollowsRuns(workspaces_.current() == Workspace::kRun ||
-                          workspaces_.current() == Workspace::kDiagnose);
+    // Annotating changes their inputs again and again.
+    review.setFollowsRuns(workspaces_.current() != Workspace::kAnnotate);
   };
   connect(&workspaces_, &Workspaces::changed, this, follow_runs);
   follow_runs();
