@@ -123,6 +123,9 @@ TEST(Verdict, ConvergedRun_IsGoodAndNotYetValidated_OutdatedItIsRunAgain) {
 }
 
 TEST(Verdict, PoseBeyondTheRequirementOrAFailedCheck_IsNoSuccess) {
+  Situation unchecked = converged();
+  unchecked.review.current = false;
+  EXPECT_EQ(verdictOf(unchecked).tone, Tone::kPlain) << "until the checks are complete";
   Situation situation = converged();
   situation.quality.reset();
   EXPECT_EQ(verdictOf(situation).tone, Tone::kPlain) << "not measured yet";
@@ -271,6 +274,16 @@ TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
   situation.review.state = sessions::ReviewState::kRejected;
   situation.review.decision = QStringLiteral("by A. Operator: blurred");
   EXPECT_TRUE(tells(situation, Tone::kBad, "Rejected in review", "", Step::kNextCase));
+  situation.has_next = false;
+  EXPECT_TRUE(tells(situation, Tone::kBad, "Rejected in review", "", Step::kNone));
+}
+
+TEST(Remedies, AFailedCheckLeadsToWhatItsFigureComesFrom) {
+  EXPECT_EQ(stepOfCheck("convergence_competing"), Step::kCompetingPoses);
+  EXPECT_EQ(stepOfCheck("image_saturated"), Step::kMask);
+  EXPECT_EQ(stepOfCheck("image_range"), Step::kInputs);
+  EXPECT_EQ(stepOfCheck("agreement_annotation"), Step::kAnnotate);
+  EXPECT_EQ(stepOfCheck("edge_coverage"), Step::kInspect);
 }
 
 TEST(Verdict, Onboard_TellsWhetherTheRunsAgree) {
