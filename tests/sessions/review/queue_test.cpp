@@ -225,10 +225,31 @@ TEST(QueueOfExample, AThumbnailShowsTheStationsEdgesWhereTheImageHasThem) {
   EXPECT_LE(picture.width, 144);
   EXPECT_LE(picture.height, 108);
   EXPECT_TRUE(picture.width == 144 || picture.height == 108);
+  const auto isEdge = [](const ColorImage& of, std::size_t pixel) {
+    const std::uint8_t* bgr = of.bgr.data() + 3 * pixel;
+    return ColorBgr{bgr[0], bgr[1], bgr[2]} == kResultColor;
+  };
   int green = 0;
-  for (std::size_t i = 0; i < picture.bgr.size(); i += 3)
-    green += ColorBgr{picture.bgr[i], picture.bgr[i + 1], picture.bgr[i + 2]} == kResultColor;
+  for (std::size_t i = 0; i < picture.bgr.size() / 3; ++i) green += isEdge(picture, i);
   EXPECT_GT(green, picture.width) << "the station fills the picture";
+  const auto heightFrom = [&](double times_as_far) {
+    Pose far = *loaded->source.camera_from_station_truth;
+    far.translation_m *= times_as_far;
+    const ColorImage whole = thumbnail(far);
+    EXPECT_EQ(whole.width, 144);
+    EXPECT_EQ(whole.height, 108);
+    int highest = 107, lowest = 0;
+    for (int y = 0; y < whole.height; ++y)
+      for (int x = 0; x < whole.width; ++x) {
+        if (!isEdge(whole, static_cast<std::size_t>(144 * y + x))) continue;
+        EXPECT_TRUE(x > 0 && x < 143 && y > 0 && y < 107) << x << " " << y << ": cut off";
+        highest = std::min(highest, y);
+        lowest = std::max(lowest, y);
+      }
+    return lowest - highest;
+  };
+  EXPECT_GT(heightFrom(3.0), 60) << "as large as fits";
+  EXPECT_LT(heightFrom(60.0), 40) << "no few pixels that fill the picture";
   Pose behind = *loaded->source.camera_from_station_truth;
   behind.translation_m.z() = -behind.translation_m.z();
   EXPECT_GT(thumbnail(behind).width, 0) << "the whole image";
