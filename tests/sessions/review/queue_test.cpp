@@ -192,7 +192,7 @@ TEST(QueueOfExample, ARowSufficesToDecide) {
               return check.state != CheckState::kNotApplicable;
             }));
   ASSERT_EQ(row.failed, 0) << troubleText(row);
-  EXPECT_THAT(troubleText(row), testing::MatchesRegex("[0-9]+ checks passed, margin .* %: .*"));
+  EXPECT_THAT(troubleText(row), testing::MatchesRegex("[0-9]+ checks passed, margin [0-9]+ %: .*"));
   const Session after = validated(session, *row.subject, row.checks, {}, {"Ada", "as drawn"});
   EXPECT_EQ(reviewStatusOf(after, id).state, ReviewState::kValidated);
   EXPECT_EQ(after.decisions.back().pose->camera_from_station,
