@@ -401,8 +401,8 @@ void CaseController::store(const EndedRun& ended) {
       });
 }
 
-/// A run that was repeated within a second changes nothing: noting it would leave the session
-/// unmodified, which would look as if there were room now for what is being stored.
+/// A run that is repeated within a second has the record that the session has. It is not noted: a
+/// session that stays unmodified counts as saved, and runs without room would be stored again.
 bool CaseController::noteRuns(const std::vector<sessions::RunRecord>& records) {
   const sessions::Session after = withRuns(document_.session(), records);
   return after == document_.session() ||

@@ -105,7 +105,7 @@ void MainWindow::connectAll() {
   auto* jobs = new JobController(parts_, docks_->review.controller(), frame_->jobs(), this);
   connect(menus_, &WindowMenus::stopRequested, jobs, &JobController::stop);
   connect(&document_, &Document::opened, this, &MainWindow::showFittingWorkspace);
-  connect(files_, &SessionFiles::caseMade, this, &MainWindow::showFittingWorkspace);
+  connect(files_, &SessionFiles::caseAdded, this, &MainWindow::showFittingWorkspace);
   new QueueLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels, this);
   connect(levels, &LevelsController::noted, this, note);

@@ -375,7 +375,7 @@ bool SessionFiles::takeCase(sessions::SessionCase session_case) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {
     parts_.cases.chooseCase(id);
-    Q_EMIT caseMade();
+    Q_EMIT caseAdded();
   }
   return true;
 }

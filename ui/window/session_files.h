@@ -94,8 +94,8 @@ class SessionFiles : public QObject {
   void noted(const QString& message);
   /// Files of a case were added or removed.
   void collectedChanged();
-  /// The collected files have become a case.
-  void caseMade();
+  /// The collected files have become a case of the open session.
+  void caseAdded();
   /// The new session should be reviewed in the queue.
   void queueWanted();
 

@@ -258,6 +258,7 @@ void VerdictController::perform(Step step) {
       if (const QString next = nextCase(); !next.isEmpty()) cases.chooseCase(next);
       return;
     case Step::kFirstDifference:
+      workspaces_.show(Workspace::kOnboard);
       return parts_.onboard.goToFirstDifference();
     case Step::kRepeatRecord:
       return parts_.onboard.rerun();

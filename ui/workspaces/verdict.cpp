@@ -342,7 +342,7 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
   return std::nullopt;
 }
 
-Verdict verdictWithNext(const Situation& situation) {
+Verdict ofSituation(const Situation& situation) {
   if (!situation.has_case && situation.load_problem.isEmpty() && situation.file_problem.isEmpty())
     return situation.reading.isEmpty() ? ofFiles(situation.files) : ofReading(situation.reading);
   if (situation.workspace == Workspace::kStart && situation.files.added > 0)
@@ -372,7 +372,7 @@ Verdict verdictWithNext(const Situation& situation) {
 }  // namespace
 
 Verdict verdictOf(const Situation& situation) {
-  Verdict verdict = verdictWithNext(situation);
+  Verdict verdict = ofSituation(situation);
   if (situation.has_next) return verdict;
   if (verdict.step == Step::kNextCase) verdict.step = Step::kNone;
   std::erase(verdict.others, Step::kNextCase);

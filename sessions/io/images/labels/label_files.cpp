@@ -42,9 +42,10 @@ std::string_view firstWord(std::string_view text) {
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// Writes FORTRAN's exponents, 1.5D-03, as 1.5E-03: GDAL takes that for 1.5. Texts are kept.
-/// `label` is the part of the file's bytes that begins at `begin`.
-void rewriteExponents(LabelFiles& files, std::string_view label, char quote,
-                      std::size_t begin = 0) {
+/// `label` is a part of the file's bytes.
+void rewriteExponents(LabelFiles& files, std::string_view label, char quote) {
+  const auto begin =
+      static_cast<std::size_t>(label.data() - asText(files.parts.front().bytes).data());
   bool in_text = false;
   bool in_number = false;
   const auto digitAt = [label](std::size_t i) { return i < label.size() && isDigit(label[i]); };
@@ -121,11 +122,10 @@ void readVicarLabel(LabelFiles& files) {
   requireSize(files, label, "RECSIZE", 1, kMostPrefix + kMaxImageSide_px * kMostBytesOfSample);
   rewriteExponents(files, label, '\'');
   if (const auto end = vicarEndLabel(label); end && *end < static_cast<std::int64_t>(text.size())) {
-    const auto begin = static_cast<std::size_t>(*end);
-    const std::string_view rest = text.substr(begin);
+    const std::string_view rest = text.substr(static_cast<std::size_t>(*end));
     const std::int64_t rest_size = statedInteger(rest.substr(0, 64), "LBLSIZE").value_or(0);
     if (rest_size > 0)
-      rewriteExponents(files, rest.substr(0, static_cast<std::size_t>(rest_size)), '\'', begin);
+      rewriteExponents(files, rest.substr(0, static_cast<std::size_t>(rest_size)), '\'');
   }
   stateOrganization(files, label);
 }
