@@ -30,22 +30,25 @@ BASELINE_m, TOE_IN_deg = 0.10, 11.0
 # effector is on the camera's axis. `declared`: a box that contains every truth, about the centre of
 # the station's bounding box (`centre_m`). `declared_far`: the same errors drawn at the camera.
 # Objects: errors about their centre, uniform in balls, declared as the balls' radii.
-# One range for both stations, as in Sec. III-A ("+-30 mm, +-5 deg on each axis"), and as much wider
-# as the station's centre and the roll of the camera need.
-ARM_DECLARED = {"translation_m": [0.036, 0.036, 0.030], "rotation_deg": [5.5, 5.5, 6.0],
-                "pivot": "station"}
-ARM_DECLARED_FAR = {"translation_m": [0.033, 0.040, 0.030], "rotation_deg": [5.5, 5.5, 6.0],
-                    "pivot": "camera"}
+# The arm's stations: the "worst-case input uncertainties" of Sec. III-A, "e.g." +-30 mm and +-5 deg
+# on each axis (bc), each station's own by Table I, and as much wider as the station's centre and the
+# roll of the camera need.
 OBJECT_DECLARED = {"translation_m": [0.030] * 3, "rotation_deg": [10.0] * 3, "pivot": "station"}
 STATIONS = {
     "bc": {"standoff_m": (0.400, 0.435), "feature_size_m": 0.015, "end_effector_m": 0.39,
            "centre_m": [0.001434, -0.005, -0.020], "tilt_deg": (1.0, 11.0), "roll_deg": (-6.0, 4.0),
            "error": {"normal_m": 0.020, "lateral_m": 0.030, "tilt_deg": 5.0},
-           "declared": ARM_DECLARED, "declared_far": ARM_DECLARED_FAR},
+           "declared": {"translation_m": [0.036, 0.036, 0.030], "rotation_deg": [5.5, 5.5, 6.0],
+                        "pivot": "station"},
+           "declared_far": {"translation_m": [0.033, 0.040, 0.030], "rotation_deg": [5.5, 5.5, 6.0],
+                            "pivot": "camera"}},
     "os": {"standoff_m": (0.380, 0.412), "feature_size_m": 0.018, "end_effector_m": 0.37,
            "centre_m": [-0.00476, 0.0, -0.038], "tilt_deg": (1.0, 11.0), "roll_deg": (3.0, 4.0),
            "error": {"normal_m": 0.0115, "lateral_m": 0.014, "tilt_deg": 1.75},
-           "declared": ARM_DECLARED, "declared_far": ARM_DECLARED_FAR},
+           "declared": {"translation_m": [0.022, 0.022, 0.015], "rotation_deg": [1.9, 1.9, 5.5],
+                        "pivot": "station"},
+           "declared_far": {"translation_m": [0.016, 0.024, 0.016], "rotation_deg": [1.9, 1.9, 5.5],
+                            "pivot": "camera"}},
     "tube": {"standoff_m": (0.380, 0.440), "feature_size_m": 0.020, "end_effector_m": 0.37,
              "centre_m": [0.0, 0.00112, 0.00054], "tilt_deg": (2.0, 28.0), "roll_deg": (0.0, 180.0),
              "declared": OBJECT_DECLARED, "requirement": {"projection_px": 2.0}},
