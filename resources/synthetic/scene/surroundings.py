@@ -208,12 +208,20 @@ def shadow_casters(towards_sun, sees, count, generator):
     return made
 
 
-def _dense(solid):
-    """Points all over a solid's triangles."""
+def _dense(solid, spacing=5.0):
+    """Points all over a solid's triangles, at most that far apart (mm): a beam in front of the
+    camera fills the picture, yet few of its places are in view."""
     corners = solid.vertices[solid.triangles]
-    weights = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (.5, .5, 0), (.5, 0, .5), (0, .5, .5),
-               (.75, .25, 0), (.25, .75, 0), (.8, .1, .1), (.1, .8, .1), (.3, .4, .3)]
-    return np.vstack([corners[:, 0] * a + corners[:, 1] * b + corners[:, 2] * c for a, b, c in weights])
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    steps = np.ceil(edges.max(axis=1) / spacing).astype(int)
+    points = []
+    for n in np.unique(steps):
+        i, j = (index.ravel() for index in np.mgrid[:n + 1, :n + 1])
+        inside = i + j <= n
+        i, j = i[inside, None] / n, j[inside, None] / n
+        a, b, c = (corners[steps == n, None, k] for k in range(3))
+        points.append((a + i * (b - a) + j * (c - a)).reshape(-1, 3))
+    return np.vstack(points)
 
 
 def occluder(camera_place, reach, generator):
