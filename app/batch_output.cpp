@@ -18,7 +18,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void onInterrupt(int) { interrupted = 1; }
 
-/// As a shell reads it; quotes inside stand between two quoted texts.
+/// Quoted for a shell.
 std::string inQuotes(const std::string& word) {
   std::string text = "'";
   for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);

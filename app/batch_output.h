@@ -32,7 +32,7 @@ class TerminalLine {
   bool on_terminal_;
 };
 
-/// The command line, with quotes round words with special characters; a ' is not escaped.
+/// The command line of this program, with words quoted where a shell needs it.
 std::string typedCommand();
 
 /// Writes JSON lines, one per run. OutputError.

@@ -79,29 +79,25 @@ struct BenchArguments {
   bool quick = false;
   std::string json;
 
-  void addTo(CLI::App& command);
-  /// Portable kernels, the best ones, and these on more threads.
-  std::vector<sessions::RunSettings> settings() const;
-};
-
-std::vector<sessions::RunSettings> BenchArguments::settings() const {
-  std::vector<sessions::RunSettings> run_settings(2, {.threads = 1});
-  run_settings[0].kernels = Kernels::kPortable;
-  for (const int threads : {2, 4, 8}) {
-    if (quick || threads > static_cast<int>(std::thread::hardware_concurrency())) break;
-    run_settings.emplace_back().threads = threads;
+  void addTo(CLI::App& command) {
+    addFile(command, "--dataset", dataset, "dataset.json (without it the shipped examples)");
+    addOption(command, "--case", "ID", cases,
+              "Cases to time (without it the first of each station)");
+    options.addTo(command);
+    command.add_flag("--quick", quick, "Fewer repetitions");
+    addFile(command, "--json", json, "Writes the figures as JSON");
   }
-  return run_settings;
-}
-
-void BenchArguments::addTo(CLI::App& command) {
-  addFile(command, "--dataset", dataset, "dataset.json (without it the shipped examples)");
-  command.add_option("--case", cases, "Cases to time (without it the first of each station)")
-      ->type_name("ID");
-  options.addTo(command);
-  command.add_flag("--quick", quick, "Fewer repetitions");
-  addFile(command, "--json", json, "Writes the figures as JSON");
-}
+  /// Portable kernels, the best ones, and these on more threads.
+  std::vector<sessions::RunSettings> settings() const {
+    std::vector<sessions::RunSettings> run_settings(2, {.threads = 1});
+    run_settings[0].kernels = Kernels::kPortable;
+    for (const int threads : {2, 4, 8}) {
+      if (quick || threads > static_cast<int>(std::thread::hardware_concurrency())) break;
+      run_settings.emplace_back().threads = threads;
+    }
+    return run_settings;
+  }
+};
 
 std::vector<LocalizationFigure> measure(const BenchArguments& arguments) {
   const sessions::Dataset dataset = sessions::readDataset(
@@ -130,19 +126,15 @@ void printFigures(const std::vector<LocalizationFigure>& figures) {
   sessions::TextTable runs({"case", "kernels", "threads", "size", "runs", "converged", "init",
                             "render", "match", "pose", "refine", "total", "per s", "arena kB",
                             "digest"});
-  for (const LocalizationFigure& localization_figure : figures) {
-    const sessions::StageSeconds& s = localization_figure.mean_seconds;
-    runs.add({localization_figure.name, kernelsName(localization_figure.kernels),
-              std::to_string(localization_figure.threads),
-              std::to_string(localization_figure.width) + "x" +
-                  std::to_string(localization_figure.height),
-              std::to_string(localization_figure.runs),
-              std::to_string(localization_figure.converged), milliseconds(s.initialization),
-              milliseconds(s.rendering), milliseconds(s.matching), milliseconds(s.pose),
-              milliseconds(s.refinement), milliseconds(s.total()),
-              sessions::fixedText(localization_figure.perSecond(), 1),
-              std::to_string(localization_figure.arena_bytes / 1000),
-              localization_figure.digest.substr(0, 16)});
+  for (const LocalizationFigure& figure : figures) {
+    const sessions::StageSeconds& s = figure.mean_seconds;
+    runs.add({figure.name, kernelsName(figure.kernels), std::to_string(figure.threads),
+              std::to_string(figure.width) + "x" + std::to_string(figure.height),
+              std::to_string(figure.runs), std::to_string(figure.converged),
+              milliseconds(s.initialization), milliseconds(s.rendering), milliseconds(s.matching),
+              milliseconds(s.pose), milliseconds(s.refinement), milliseconds(s.total()),
+              sessions::fixedText(figure.perSecond(), 1), std::to_string(figure.arena_bytes / 1000),
+              figure.digest.substr(0, 16)});
   }
   std::cout << runs.text() << std::flush;
 }
@@ -153,25 +145,24 @@ nlohmann::ordered_json toJson(const std::vector<LocalizationFigure>& figures) {
                                  {"whs", sessions::kVersion},
                                  {"sha_instructions", sha256Instructions() != nullptr}};
   json["localizations"] = nlohmann::ordered_json::array();
-  for (const LocalizationFigure& localization_figure : figures) {
-    json["localizations"].push_back(
-        {{"name", localization_figure.name},
-         {"kernels", kernelsName(localization_figure.kernels)},
-         {"threads", localization_figure.threads},
-         {"width", localization_figure.width},
-         {"height", localization_figure.height},
-         {"runs", localization_figure.runs},
-         {"converged", localization_figure.converged},
-         {"mean_seconds", sessions::toJson(localization_figure.mean_seconds)},
-         {"per_second", localization_figure.perSecond()},
-         {"arena_bytes", localization_figure.arena_bytes},
-         {"digest", localization_figure.digest}});
+  for (const LocalizationFigure& figure : figures) {
+    json["localizations"].push_back({{"name", figure.name},
+                                     {"kernels", kernelsName(figure.kernels)},
+                                     {"threads", figure.threads},
+                                     {"width", figure.width},
+                                     {"height", figure.height},
+                                     {"runs", figure.runs},
+                                     {"converged", figure.converged},
+                                     {"mean_seconds", sessions::toJson(figure.mean_seconds)},
+                                     {"per_second", figure.perSecond()},
+                                     {"arena_bytes", figure.arena_bytes},
+                                     {"digest", figure.digest}});
   }
   return json;
 }
 
 int bench(const BenchArguments& arguments) {
-  if (!arguments.json.empty()) sessions::requireWritable(arguments.json);
+  requireWritable({arguments.json});
   const std::vector<LocalizationFigure> figures = measure(arguments);
   printFigures(figures);
   if (!arguments.json.empty()) sessions::writeJsonFile(arguments.json, toJson(figures));
@@ -181,9 +172,7 @@ int bench(const BenchArguments& arguments) {
 }  // namespace
 
 void addBench(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "bench", "Times localizations on this machine, stage by stage", bench);
-  arguments->addTo(*command);
+  addCommand(app, exit_code, "bench", "Times localizations on this machine, stage by stage", bench);
 }
 
 }  // namespace boresight::app

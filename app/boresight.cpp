@@ -13,6 +13,7 @@
 #include <QApplication>
 #include <QTemporaryDir>
 
+#include "app/add_option.h"
 #include "app/exit_codes.h"
 #include "app/plain_output.h"
 #include "app/written_pages.h"
@@ -47,38 +48,28 @@ struct Arguments {
 };
 
 void Arguments::addTo(CLI::App& app) {
-  app.add_option("files", files,
-                 "A session, a dataset.json, results of whs evaluate, or an image, a camera "
-                 "(unless the image's label has one), a mesh and a seed, with transforms where "
-                 "their frames differ")
-      ->type_name("FILE");
+  addFile(app, "files", files,
+          "A session, a dataset.json, results of whs evaluate, or an image, a camera "
+          "(unless the image's label has one), a mesh and a seed, with transforms where "
+          "their frames differ");
   app.add_flag("--self-test", self_test,
                "Test the program itself without a display and print N passed, N failed");
-  app.add_option("--screenshot", out, "Write a picture of the session's case and its run, and exit")
-      ->type_name("FILE");
-  app.add_option("--view", view, "Content of the picture: window, image, or a dock")
-      ->type_name("NAME");
-  app.add_option("--size", size, "Size of the window in the picture")
-      ->capture_default_str()
-      ->type_name("WxH");
-  app.add_option("--iteration", screenshot.iteration,
-                 "Iteration in the picture, from 0; -1: the seed")
-      ->check(CLI::Range(-1, kMostRows))
-      ->type_name("N");
-  app.add_option("--hypothesis", screenshot.hypothesis,
-                 "Row under Hypotheses in the picture, from 1")
-      ->check(CLI::Range(1, kMostRows))
-      ->type_name("N");
-  app.add_option("--annotation", annotation, "Annotation that is edited in the picture")
-      ->type_name("ID");
-  app.add_option("--workspace", workspace,
-                 "Workspace in the picture, or to begin in; a picture prints the image's share of "
-                 "the window")
+  addFile(app, "--screenshot", out, "Write a picture of the session's case and its run, and exit");
+  addOption(app, "--view", "NAME", view, "Content of the picture: window, image, or a dock");
+  addOption(app, "--size", "WxH", size, "Size of the window in the picture")->capture_default_str();
+  addOption(app, "--iteration", "N", screenshot.iteration,
+            "Iteration in the picture, from 0; -1: the seed")
+      ->check(CLI::Range(-1, kMostRows));
+  addOption(app, "--hypothesis", "N", screenshot.hypothesis,
+            "Row under Hypotheses in the picture, from 1")
+      ->check(CLI::Range(1, kMostRows));
+  addOption(app, "--annotation", "ID", annotation, "Annotation that is edited in the picture");
+  addOption(app, "--workspace", "NAME", workspace,
+            "Workspace in the picture, or to begin in; a picture prints the image's share of "
+            "the window")
       ->check(CLI::IsMember({"start", "run", "diagnose", "annotate", "review", "onboard"},
-                            CLI::ignore_case))
-      ->type_name("NAME");
-  app.add_option("--theme", theme, "Light or dark colours")
-      ->check(CLI::IsMember({"light", "dark"}));
+                            CLI::ignore_case));
+  addChoice(app, "--theme", theme, {"light", "dark"}, "Light or dark colours");
   app.add_option("--documents", documents, "Write pages of the manual")->group("");
 }
 

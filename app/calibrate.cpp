@@ -24,6 +24,18 @@ struct CalibrateArguments {
   std::string from = "annotations";
   std::vector<std::string> free = {"focal", "centre"};
   std::string out;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "sessions", sessions, "Session files of one camera")->required();
+    addChoice(command, "--from", from, {"annotations", "runs"},
+              "Observations: annotations (points), or runs (edges of converged runs)");
+    addChoice(command, "--free", free, {"focal", "centre", "distortion"},
+              "Adjusted: focal, centre, distortion");
+    addFile(
+        command, "--out", out,
+        "Writes the adjusted camera as camera.json, with calibration_sigma where determined; of "
+        "several sessions the last one's");
+  }
 };
 
 sessions::FreeParameters freeOf(const CalibrateArguments& arguments) {
@@ -85,7 +97,7 @@ void printDrift(const std::vector<sessions::CameraCalibration>& calibrations,
 }
 
 int calibrate(const CalibrateArguments& arguments) {
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  requireWritable({arguments.out});
   std::vector<sessions::CameraCalibration> calibrations;
   std::optional<sessions::CameraReference> reference;  // of the last session
   for (const std::string& file : arguments.sessions) {
@@ -104,24 +116,11 @@ int calibrate(const CalibrateArguments& arguments) {
 }  // namespace
 
 void addCalibrate(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "calibrate",
-                 "Estimates camera parameters from many images of a station, with their sigmas; "
-                 "reports what the images cannot determine. Several sessions: each by itself, and "
-                 "the drift since the first",
-                 calibrate);
-  addFile(*command, "sessions", arguments->sessions, "Session files of one camera")->required();
-  command
-      ->add_option("--from", arguments->from,
-                   "Observations: annotations (points), or runs (edges of converged runs)")
-      ->check(CLI::IsMember({"annotations", "runs"}))
-      ->capture_default_str();
-  command->add_option("--free", arguments->free, "Adjusted: focal, centre, distortion")
-      ->check(CLI::IsMember({"focal", "centre", "distortion"}))
-      ->capture_default_str();
-  addFile(*command, "--out", arguments->out,
-          "Writes the adjusted camera as camera.json, with calibration_sigma where determined; of "
-          "several sessions the last one's");
+  addCommand(app, exit_code, "calibrate",
+             "Estimates camera parameters from many images of a station, with their sigmas; "
+             "reports what the images cannot determine. Several sessions: each by itself, and "
+             "the drift since the first",
+             calibrate);
 }
 
 }  // namespace boresight::app

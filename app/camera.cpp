@@ -20,6 +20,18 @@ using std::filesystem::path;
 struct CameraArguments {
   std::string file, model, out;
   double distance_m = std::numeric_limits<double>::infinity();
+
+  void addTo(CLI::App& command) {
+    addFile(command, "file", file, kCameraHelp)->required();
+    addChoice(command, "--as", model, {"pinhole", "brown_conrady", "kannala_brandt"},
+              "Fits this model in the same camera frame and prints its worst error in pixels");
+    addOption(command, "--distance", "M", distance_m,
+              "Distance from the camera at which the model is fitted, where the entrance "
+              "pupil moves (cahvore), m")
+        ->check(numberIn(1e-3, 1e6));
+    addFile(command, "--out", out,
+            "camera.json, or for vectors a text file (.cahv, .cahvor, .cahvore)");
+  }
 };
 
 CameraModel modelNamed(const std::string& name) {
@@ -87,7 +99,7 @@ int convert(const CameraArguments& arguments) {
   if (!arguments.model.empty() && sessions::isCahvorFile(path(arguments.out)))
     throw CLI::ValidationError("--out",
                                "a text file holds vectors only; write a fitted model as .json");
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  requireWritable({arguments.out});
   if (!arguments.model.empty()) {
     convertAs(arguments, given);
   } else if (arguments.out.empty()) {
@@ -104,23 +116,9 @@ int convert(const CameraArguments& arguments) {
 }  // namespace
 
 void addCamera(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "camera",
-      "Converts a camera to another file format, or fits another model and prints its error",
-      convert);
-  addFile(*command, "file", arguments->file, kCameraHelp)->required();
-  command
-      ->add_option("--as", arguments->model,
-                   "Fits this model in the same camera frame and prints its worst error in pixels")
-      ->check(CLI::IsMember({"pinhole", "brown_conrady", "kannala_brandt"}));
-  command
-      ->add_option("--distance", arguments->distance_m,
-                   "Distance from the camera at which the model is fitted, where the entrance "
-                   "pupil moves (cahvore), m")
-      ->check(numberIn(1e-3, 1e6))
-      ->type_name("M");
-  addFile(*command, "--out", arguments->out,
-          "camera.json, or for vectors a text file (.cahv, .cahvor, .cahvore)");
+  addCommand(app, exit_code, "camera",
+             "Converts a camera to another file format, or fits another model and prints its error",
+             convert);
 }
 
 }  // namespace boresight::app

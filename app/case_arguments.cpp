@@ -38,60 +38,46 @@ void CaseArguments::addTo(CLI::App& command) {
           "CAMERA and STATION)");
   frames.addTo(command);
   options.addTo(command);
-  command
-      .add_option("--feature-size", feature_size_m,
-                  "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
-      ->check(numberIn(0.0, 100.0))
-      ->type_name("M");
+  addOption(command, "--feature-size", "M", feature_size_m,
+            "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
+      ->check(numberIn(0.0, 100.0));
   addFile(command, "--ignore", ignore, "Mask image of the same size: nonzero pixels are ignored");
-  command
-      .add_option("--bit-depth", bit_depth,
-                  "Bit depth of the image's samples, e.g. 12 in a 16-bit file")
-      ->check(CLI::Range(1, 16))
-      ->type_name("N");
-  command
-      .add_option(
-          "--levels", levels,
-          "Samples that become 0 and 255, e.g. 1489 5828 of a radiometric product (default: "
-          "the whole range of the bit depth)")
+  addOption(command, "--bit-depth", "N", bit_depth,
+            "Bit depth of the image's samples, e.g. 12 in a 16-bit file")
+      ->check(CLI::Range(1, 16));
+  addOption(command, "--levels", "BLACK WHITE", levels,
+            "Samples that become 0 and 255, e.g. 1489 5828 of a radiometric product (default: "
+            "the whole range of the bit depth)")
       ->expected(2)
-      ->check(CLI::Range(0, 65535))
-      ->type_name("BLACK WHITE");
-  command
-      .add_option("--bayer", bayer,
-                  "The samples are a mosaic of colours, whose first two lines begin like this")
-      ->check(CLI::IsMember(std::vector<std::string>(std::begin(sessions::kBayerPatternNames),
-                                                     std::end(sessions::kBayerPatternNames))));
+      ->check(CLI::Range(0, 65535));
+  addChoice(command, "--bayer", bayer,
+            std::vector<std::string>(std::begin(sessions::kBayerPatternNames),
+                                     std::end(sessions::kBayerPatternNames)),
+            "The samples are a mosaic of colours, whose first two lines begin like this");
 }
 
 void CaseArguments::addEndEffectorTo(CLI::App& command) {
-  command
-      .add_option("--end-effector", end_effector_m,
-                  "End effector in the camera frame (default: as --frames joins CAMERA and "
-                  "END_EFFECTOR)")
+  addOption(command, "--end-effector", "X Y Z M", end_effector_m,
+            "End effector in the camera frame (default: as --frames joins CAMERA and "
+            "END_EFFECTOR)")
       ->expected(3)
-      ->check(numberIn(-100.0, 100.0))
-      ->type_name("X Y Z M");
+      ->check(numberIn(-100.0, 100.0));
 }
 
 void CaseArguments::addRequirementTo(CLI::App& command) {
-  command
-      .add_option("--requirement", requirement,
-                  "Largest normal and lateral error (mm) and rotation (deg), or one number: px in "
-                  "the image")
+  addOption(command, "--requirement", "MM MM DEG", requirement,
+            "Largest normal and lateral error (mm) and rotation (deg), or one number: px in "
+            "the image")
       ->expected(1, 3)
-      ->check(numberIn(1e-6, 1e6))
-      ->type_name("MM MM DEG");
+      ->check(numberIn(1e-6, 1e6));
 }
 
 void CaseArguments::addUncertaintyTo(CLI::App& command) {
   addUncertainty(command, uncertainty,
                  "Largest error of the seed along and about x, y, z of the camera: three lengths "
                  "in m, three angles in deg (default: those in the seed's file)");
-  command
-      .add_option("--pivot", pivot,
-                  "Centre of the seed's rotation uncertainty: camera (an arm camera) or station")
-      ->check(CLI::IsMember({"camera", "station"}));
+  addChoice(command, "--pivot", pivot, {"camera", "station"},
+            "Centre of the seed's rotation uncertainty: camera (an arm camera) or station");
 }
 
 CLI::Option* CaseArguments::addTruthTo(CLI::App& command) {

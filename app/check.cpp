@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -18,17 +17,38 @@ namespace {
 
 using sessions::PoseSource;
 
+std::vector<std::string> presetNames() {
+  std::vector<std::string> names;
+  for (const sessions::CheckPreset& preset : sessions::checkPresets()) names.push_back(preset.name);
+  return names;
+}
+
 struct CheckArguments {
   std::string session;
   std::vector<std::string> cases;
   std::string source = "run";
-  std::string preset;
-  std::string json;
+  std::string preset, json;
   int convergence = sessions::kConvergenceSeeds;
   bool sentences = false;
 
   PoseSource poseSource() const {
     return source == "annotation" ? PoseSource::kAnnotation : PoseSource::kRun;
+  }
+
+  void addTo(CLI::App& command) {
+    addFile(command, "session", session, "Session file")->required();
+    addOption(command, "--case", "ID", cases, "Only this case; may be repeated");
+    addChoice(command, "--source", source, {"run", "annotation"},
+              "Pose to check: that of the last run, or that of the annotations");
+    addOption(command, "--convergence-test", "N", convergence,
+              "Number of further seeds of the convergence test; 0: no such test")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    addChoice(command, "--preset", preset, presetNames(),
+              "Preset of limits and requirement that replaces the session's own")
+        ->type_name("NAME");
+    addFile(command, "--json", json, "Write the checks to this file");
+    command.add_flag("--sentences", sentences, "Print the findings of passed checks, too");
   }
 };
 
@@ -51,9 +71,7 @@ CheckedCase checkCase(const sessions::Session& session, const std::string& id,
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
   const auto subject = sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)),
                                                arguments.poseSource());
-  std::optional<sessions::ConvergenceResult> convergence;
-  if (arguments.convergence > 0)
-    convergence = sessions::convergenceTest(subject, arguments.convergence);
+  const auto convergence = sessions::convergenceTest(subject, arguments.convergence);
   return {id, sessions::checkPose(subject, limits, convergence), ""};
 }
 
@@ -77,15 +95,11 @@ void writeJson(const CheckArguments& arguments, const std::string& preset,
 
 int checkSession(const CheckArguments& arguments) {
   const sessions::SessionDocument document = openToRead(arguments.session);
-  if (!arguments.json.empty()) sessions::requireWritable(arguments.json);
+  requireWritable({arguments.json});
   const sessions::Session session = judgedBy(document.session(), arguments.preset);
-  std::vector<std::string> ids = arguments.cases;
-  for (const std::string& id : ids) (void)requireCase(document, id);
-  if (ids.empty())
-    for (const auto& session_case : session.cases) ids.push_back(session_case->id);
   int exit_code = kDone;
   std::vector<CheckedCase> checked;
-  for (const std::string& id : ids) {
+  for (const std::string& id : requestedCases(document, arguments.cases)) {
     try {
       checked.push_back(checkCase(session, id, arguments));
       const CheckedCase& checked_case = checked.back();
@@ -103,42 +117,13 @@ int checkSession(const CheckArguments& arguments) {
   return exit_code;
 }
 
-std::vector<std::string> presetNames() {
-  std::vector<std::string> names;
-  for (const sessions::CheckPreset& preset : sessions::checkPresets()) names.push_back(preset.name);
-  return names;
-}
-
 }  // namespace
 
 void addCheck(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "check",
-                 "Checks the poses of a session, with --convergence-test also from further seeds. "
-                 "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check",
-                 checkSession);
-  addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->cases, "Only this case; may be repeated")
-      ->type_name("ID");
-  command
-      ->add_option("--source", arguments->source,
-                   "Pose to check: that of the last run, or that of the annotations")
-      ->check(CLI::IsMember({"run", "annotation"}))
-      ->capture_default_str();
-  command
-      ->add_option("--convergence-test", arguments->convergence,
-                   "Number of further seeds of the convergence test; 0: no such test")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      ->add_option("--preset", arguments->preset,
-                   "Preset of limits and requirement that replaces the session's own")
-      ->check(CLI::IsMember(presetNames()))
-      ->type_name("NAME");
-  addFile(*command, "--json", arguments->json, "Write the checks to this file");
-  command->add_flag("--sentences", arguments->sentences,
-                    "Print the findings of passed checks, too");
+  addCommand(app, exit_code, "check",
+             "Checks the poses of a session, with --convergence-test also from further seeds. "
+             "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check",
+             checkSession);
 }
 
 }  // namespace boresight::app

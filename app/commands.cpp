@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sessions/baselines/method_options.h"
+#include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/run/runner.h"
@@ -35,16 +36,13 @@ void MethodArguments::addTo(CLI::App& command, bool several) {
                : "there is no method \"" + name + "\"; there are: " + sessions::methodNames();
   });
   if (!several) option->expected(1);
-  command
-      .add_option("--matcher", matcher,
-                  "Command of the external matcher (methods external, loftr-r, loftr-s), e.g. "
-                  "\"node resources/matchers/loftr/loftr.js --model M.onnx\"")
-      ->type_name("COMMAND");
+  addOption(command, "--matcher", "COMMAND", matcher,
+            "Command of the external matcher (methods external, loftr-r, loftr-s), e.g. "
+            "\"node resources/matchers/loftr/loftr.js --model M.onnx\"");
 }
 
 bool MethodArguments::needsSetup() const {
-  return std::any_of(methods.begin(), methods.end(),
-                     [](const std::string& name) { return name != sessions::kWhs; });
+  return std::ranges::count(methods, sessions::kWhs) < std::ssize(methods);
 }
 
 sessions::MethodSetup MethodArguments::setup(const OptionArguments& options) const {
@@ -52,10 +50,7 @@ sessions::MethodSetup MethodArguments::setup(const OptionArguments& options) con
     if (sessions::needsMatcher(name) && matcher.empty())
       throw CLI::ValidationError("--matcher",
                                  "the method " + name + " needs its matcher's command");
-  sessions::MethodSetup method_setup;
-  method_setup.matcher = matcher;
-  method_setup.options = options.readMethodOptions();
-  return method_setup;
+  return {options.readMethodOptions(), matcher};
 }
 
 sessions::OptionList MethodArguments::changedOptions(const sessions::MethodOptions& options) const {
@@ -65,15 +60,11 @@ sessions::OptionList MethodArguments::changedOptions(const sessions::MethodOptio
 
 namespace {
 
-constexpr const char* kDefaultProfile = "default";
 constexpr const char* kFlightProfile = "flight";
 
 bool isMethodOption(const std::string& name) {
   const auto all = sessions::listOptions(sessions::MethodOptions());
-  return std::any_of(all.begin(), all.end(),
-                     [&name](const sessions::OptionDescription& option_description) {
-                       return option_description.name == name;
-                     });
+  return std::ranges::find(all, name, &sessions::OptionDescription::name) != all.end();
 }
 
 /// Sets what the config, then the assignments name: options of methods, or all others.
@@ -105,18 +96,23 @@ void note(const std::string& line) { std::cerr << "whs: " << sessions::plainLine
 
 void print(const std::string& line) { std::cout << sessions::plainLine(line) << std::flush; }
 
-std::string millimetresText(double length_m) {
-  return sessions::fixedText(length_m * 1e3, 3) + " mm";
+void requireWritable(const std::vector<std::string>& files) {
+  for (const std::string& file : files)
+    if (!file.empty()) sessions::requireWritable(file);
+}
+
+std::string errorText(const sessions::PoseError& error) {
+  return "normal " + sessions::fixedText(error.normal_mm, 3) + " mm, lateral " +
+         sessions::fixedText(error.lateral_mm, 3) + " mm, rotation " +
+         sessions::fixedText(error.rotation_mrad, 3) + " mrad";
 }
 
 CLI::Option* addMeshUnit(CLI::App& command, std::string& unit, const std::string& help) {
-  return command.add_option("--mesh-unit", unit, help)
-      ->check([](const std::string& text) {
-        return sessions::metresPerUnit(text)
-                   ? std::string()
-                   : "unknown unit \"" + text + "\" (m, dm, cm, mm, um, in, ft, yd, km)";
-      })
-      ->type_name("UNIT");
+  return addOption(command, "--mesh-unit", "UNIT", unit, help)->check([](const std::string& text) {
+    return sessions::metresPerUnit(text)
+               ? std::string()
+               : "unknown unit \"" + text + "\" (m, dm, cm, mm, um, in, ft, yd, km)";
+  });
 }
 
 CLI::Validator numberIn(double least, double most) {
@@ -133,10 +129,9 @@ CLI::Validator numberIn(double least, double most) {
 
 CLI::Option* addUncertainty(CLI::App& command, std::vector<double>& values,
                             const std::string& help) {
-  return command.add_option("--uncertainty", values, help)
+  return addOption(command, "--uncertainty", "TX TY TZ RX RY RZ", values, help)
       ->expected(6)
-      ->check(numberIn(0.0, 1000.0))
-      ->type_name("TX TY TZ RX RY RZ");
+      ->check(numberIn(0.0, 1000.0));
 }
 
 void setUncertainty(const std::vector<double>& values, sessions::DeclaredUncertainty& uncertainty) {
@@ -148,12 +143,15 @@ void setUncertainty(const std::vector<double>& values, sessions::DeclaredUncerta
 }
 
 void addThreads(CLI::App& command, int& threads) {
-  command
-      .add_option("--threads", threads,
-                  "Threads of a run; 0: one per core. The result is the same with any number")
+  addOption(command, "--threads", "N", threads,
+            "Threads of a run; 0: one per core. The result is the same with any number")
       ->check(CLI::Range(0, Localizer::kMaxWorkers))
-      ->capture_default_str()
-      ->type_name("N");
+      ->capture_default_str();
+}
+
+void addRecover(CLI::App& command, bool& recover) {
+  command.add_flag("--recover", recover,
+                   "Recover edits that a killed program left in the session's journal");
 }
 
 std::vector<Kernels> availableKernels() {
@@ -194,15 +192,12 @@ sessions::MethodOptions methodProfile(const std::string& name) {
 }
 
 void OptionArguments::addTo(CLI::App& command) {
-  command
-      .add_option("--profile", profile,
-                  "Set of options: default (recommended settings), paper (as published), or flight "
-                  "(default for gray images, within 10,000,000 bytes including image and mesh)")
-      ->check(CLI::IsMember({"default", "paper", "flight"}));
+  addChoice(command, "--profile", profile, {"default", "paper", "flight"},
+            "Set of options: default (recommended settings), paper (as published), or flight "
+            "(default for gray images, within 10,000,000 bytes including image and mesh)");
   addFile(command, "--config", config, "config.json: a profile and options that differ from it");
-  command
-      .add_option("--set", assignments, "Sets an option, e.g. pnp.seed=7; `whs options` lists all")
-      ->type_name("NAME=VALUE");
+  addOption(command, "--set", "NAME=VALUE", assignments,
+            "Sets an option, e.g. pnp.seed=7; `whs options` lists all");
 }
 
 LocalizerOptions OptionArguments::read() const {
@@ -219,7 +214,7 @@ sessions::MethodOptions OptionArguments::readMethodOptions() const {
 
 std::string OptionArguments::profileName() const {
   if (!profile.empty()) return profile;
-  if (config.empty()) return kDefaultProfile;
+  if (config.empty()) return "default";
   const sessions::Config read = sessions::readConfig(config);
   if (read.profile != "default" && read.profile != "paper" && read.profile != kFlightProfile)
     throw sessions::InputError(
@@ -249,27 +244,17 @@ std::vector<sessions::PartChange> partChanges(const std::vector<std::string>& te
 }  // namespace
 
 void DatasetArguments::addTo(CLI::App& command) {
-  command
-      .add_option("--part", parts,
-                  std::string("State of a part of the station in all cases, e.g. lid=off: ") +
-                      sessions::kStateChanges)
-      ->type_name("NAME=STATE");
+  addOption(command, "--part", "NAME=STATE", parts,
+            std::string("State of a part of the station in all cases, e.g. lid=off: ") +
+                sessions::kStateChanges);
   const char* group = "Of a BOP folder";
-  command
-      .add_option("--split", selection.split,
-                  "Split of a BOP folder, e.g. val (default: test, or the only one)")
-      ->type_name("NAME")
+  addOption(command, "--split", "NAME", selection.split,
+            "Split of a BOP folder, e.g. val (default: test, or the only one)")
       ->group(group);
-  command.add_option("--scene", selection.scenes, "Only these scenes")
-      ->type_name("N")
-      ->group(group);
-  command.add_option("--obj", selection.objects, "Only these objects")
-      ->type_name("N")
-      ->group(group);
-  command
-      .add_option("--sensor", selection.sensor,
-                  "Sensor of a BOP folder with several: scene_camera_NAME.json")
-      ->type_name("NAME")
+  addOption(command, "--scene", "N", selection.scenes, "Only these scenes")->group(group);
+  addOption(command, "--obj", "N", selection.objects, "Only these objects")->group(group);
+  addOption(command, "--sensor", "NAME", selection.sensor,
+            "Sensor of a BOP folder with several: scene_camera_NAME.json")
       ->group(group);
   command
       .add_flag("--every-instance", selection.every_instance,
@@ -279,9 +264,8 @@ void DatasetArguments::addTo(CLI::App& command) {
                  "Largest error of the drawn seeds along and about x, y, z of the camera: three "
                  "lengths in m, three angles in deg (default: 0.03 m, 10 deg)")
       ->group(group);
-  command
-      .add_option("--pivot", pivot, "Centre of the seed's rotation uncertainty (default: station)")
-      ->check(CLI::IsMember({"camera", "station"}))
+  addChoice(command, "--pivot", pivot, {"camera", "station"},
+            "Centre of the seed's rotation uncertainty (default: station)")
       ->group(group);
 }
 
@@ -337,6 +321,15 @@ const sessions::SessionCase& requireCase(const sessions::SessionDocument& docume
   if (found == nullptr)
     throw sessions::InputError(document.file(), "cases", "there is no case '" + case_id + "'");
   return *found;
+}
+
+std::vector<std::string> requestedCases(const sessions::SessionDocument& document,
+                                        const std::vector<std::string>& case_ids) {
+  for (const std::string& id : case_ids) (void)requireCase(document, id);
+  if (!case_ids.empty()) return case_ids;
+  std::vector<std::string> all;
+  for (const auto& session_case : document.session().cases) all.push_back(session_case->id);
+  return all;
 }
 
 const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,

@@ -6,16 +6,17 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "app/add_option.h"
 #include "app/exit_codes.h"
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/baselines/methods.h"
 #include "sessions/evaluation/bop_dataset.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/io/cameras/pose_file.h"
 #include "sessions/io/json/config_file.h"
 #include "sessions/io/meshes/scene_mesh.h"
@@ -34,29 +35,27 @@ AddCommand addVerify, addViews, addReport, addQueue, addSolve, addRender, addCam
 AddCommand addOptions, addNew, addRun, addPack, addExport, addImport, addProblem, addBench;
 AddCommand addDocuments, addTrends, addCalibrate, addHandEye, addFollow;
 
-/// Adds a subcommand and its arguments, which live as long as the subcommand and are passed to
-/// `run`.
+/// Adds a subcommand with its arguments, which declare themselves by `addTo`, live as long as the
+/// subcommand and are passed to `run`.
 template <class Arguments>
-std::pair<CLI::App*, std::remove_const_t<Arguments>*> addCommand(CLI::App& app, int& exit_code,
-                                                                 const std::string& name,
-                                                                 const std::string& help,
-                                                                 int (*run)(Arguments&)) {
+void addCommand(CLI::App& app, int& exit_code, const std::string& name, const std::string& help,
+                int (*run)(Arguments&)) {
   auto arguments = std::make_shared<std::remove_const_t<Arguments>>();
   CLI::App* command = app.add_subcommand(name, help);
+  arguments->addTo(*command);
   command->callback([arguments, run, &exit_code] { exit_code = run(*arguments); });
-  return {command, arguments.get()};
-}
-
-/// An option, or a positional argument, that names files.
-template <class Value>
-CLI::Option* addFile(CLI::App& command, const std::string& name, Value& value,
-                     const std::string& help) {
-  return command.add_option(name, value, help)->type_name("FILE");
 }
 
 /// Print a readable line to stderr and to stdout. Text from outside cannot break the line.
 void note(const std::string& line);
 void print(const std::string& line);
+
+/// OutputError unless all of these files can be written; empty names are outputs that were not
+/// requested.
+void requireWritable(const std::vector<std::string>& files);
+
+/// "normal 0.012 mm, lateral 0.034 mm, rotation 0.567 mrad".
+std::string errorText(const sessions::PoseError& error);
 
 /// Help of --mesh and of --mesh-unit.
 inline constexpr const char* kMeshHelp = "Mesh of the station: PLY, OBJ, STL, glTF or GLB";
@@ -80,6 +79,9 @@ void addThreads(CLI::App& command, int& threads);
 
 /// The kernels that are available on this machine.
 std::vector<Kernels> availableKernels();
+
+/// --recover: accepts unsaved edits of a session.
+void addRecover(CLI::App& command, bool& recover);
 
 /// --kernels, for comparisons: hidden from the help.
 void addKernels(CLI::App& command, Kernels& kernels);
@@ -159,6 +161,10 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover = fal
 const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,
                                          const std::string& case_id);
 
+/// These cases, or all cases of the session without any. InputError as above.
+std::vector<std::string> requestedCases(const sessions::SessionDocument& document,
+                                        const std::vector<std::string>& case_ids);
+
 /// The recorded run whose digest begins with `beginning`; InputError unless there is exactly one.
 const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
                                        const std::string& beginning);
@@ -166,8 +172,5 @@ const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document
 LocalizerOptions profileOptions(const std::string& name);
 /// Options of the other methods: `paper` as published, otherwise tuned.
 sessions::MethodOptions methodProfile(const std::string& name);
-
-/// "12.3 mm", for display.
-std::string millimetresText(double length_m);
 
 }  // namespace boresight::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <tuple>
 
 #include "app/commands.h"
 #include "sessions/io/files/errors.h"
@@ -15,13 +16,40 @@ namespace {
 using sessions::InputError;
 using sessions::OnboardRecord;
 
+void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
+  using Limit = std::tuple<const char*, double*, double, const char*>;
+  for (const auto& [name, limit, most, help] :
+       {Limit("--found-px", &limits.found_px, 1e6,
+              "Largest distance of two template positions that count as equal, px at their level"),
+        Limit("--found-share", &limits.found_share, 1.0,
+              "Required share of equal template positions, 0 to 1"),
+        Limit("--inlier-share", &limits.inlier_share, 1.0,
+              "Required share of the inliers of either run that both have, 0 to 1"),
+        Limit("--sigmas", &limits.pose_sigmas, 1e6,
+              "Largest distance of the final poses, in sigmas of A's covariance")})
+    command.add_option(name, *limit, help)->check(numberIn(0.0, most))->capture_default_str();
+}
+
 struct CompareArguments {
-  std::string one;
-  std::string other;
-  std::string case_id;
-  std::string digest;
+  std::string one, other, case_id, digest;
   bool rerun = false;
   sessions::ComparisonLimits limits;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "A", one, "Record, trace or session")->required();
+    addFile(command, "B", other,
+            "Record, trace or session; without it, the onboard record of A's case is compared with "
+            "the case's run");
+    addOption(command, "--case", "ID", case_id, "Case of the session");
+    CLI::Option* run =
+        addOption(command, "--run", "DIGEST", digest,
+                  "First digits of the digest of the case's run (default: the last run)");
+    command
+        .add_flag("--rerun", rerun,
+                  "Run the case with the options of the onboard record, without storing the run")
+        ->excludes(run);
+    addLimits(command, limits);
+  }
 };
 
 enum class SideKind { kRecord, kTrace, kSession };
@@ -129,53 +157,14 @@ int compare(const CompareArguments& arguments) {
   return found.verdict == sessions::RunVerdict::kWithinLimits ? kWithinLimits : kDifferent;
 }
 
-void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
-  command
-      .add_option(
-          "--found-px", limits.found_px,
-          "Largest distance of two template positions that count as equal, px at their level")
-      ->check(numberIn(0.0, 1e6))
-      ->capture_default_str();
-  command
-      .add_option("--found-share", limits.found_share,
-                  "Required share of equal template positions, 0 to 1")
-      ->check(numberIn(0.0, 1.0))
-      ->capture_default_str();
-  command
-      .add_option("--inlier-share", limits.inlier_share,
-                  "Required share of the inliers of either run that both have, 0 to 1")
-      ->check(numberIn(0.0, 1.0))
-      ->capture_default_str();
-  command
-      .add_option("--sigmas", limits.pose_sigmas,
-                  "Largest distance of the final poses, in sigmas of A's covariance")
-      ->check(numberIn(0.0, 1e6))
-      ->capture_default_str();
-}
-
 }  // namespace
 
 void addCompare(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "compare",
-                 "Compares two runs and prints their first difference. Exit status: 0 equal to the "
-                 "bit, 5 within the limits for other pixels or a cut record, 6 different. A run is "
-                 "an onboard record (run.whsr), a trace, or a run of a session's case (--case)",
-                 compare);
-  addFile(*command, "A", arguments->one, "Record, trace or session")->required();
-  addFile(*command, "B", arguments->other,
-          "Record, trace or session; without it, the onboard record of A's case is compared with "
-          "the case's run");
-  command->add_option("--case", arguments->case_id, "Case of the session")->type_name("ID");
-  auto* run =
-      command->add_option("--run", arguments->digest,
-                          "First digits of the digest of the case's run (default: the last run)");
-  run->type_name("DIGEST");
-  command
-      ->add_flag("--rerun", arguments->rerun,
-                 "Run the case with the options of the onboard record, without storing the run")
-      ->excludes(run);
-  addLimits(*command, arguments->limits);
+  addCommand(app, exit_code, "compare",
+             "Compares two runs and prints their first difference. Exit status: 0 equal to the "
+             "bit, 5 within the limits for other pixels or a cut record, 6 different. A run is "
+             "an onboard record (run.whsr), a trace, or a run of a session's case (--case)",
+             compare);
 }
 
 }  // namespace boresight::app

@@ -11,10 +11,7 @@ using sessions::PoseSource;
 using sessions::Session;
 
 struct DecideArguments {
-  std::string session;
-  std::string case_id;
-  std::string by;
-  std::string comment;
+  std::string session, case_id, by, comment;
   std::string source = "run";
   std::vector<std::string> waivers;
   int convergence = sessions::kConvergenceSeeds;
@@ -25,6 +22,30 @@ struct DecideArguments {
   bool recover = false;
 
   sessions::Signature signature() const { return {by, comment}; }
+
+  void addTo(CLI::App& command) {
+    addFile(command, "session", session, "Session file")->required();
+    addOption(command, "--case", "ID", case_id, "Case")->required();
+    CLI::Option_group* what = command.add_option_group("What");
+    what->add_flag("--validate", validate, "Validate the pose");
+    what->add_flag("--reject", reject, "Reject the result");
+    what->add_flag("--approve", approve, "Approve a validation as the second person");
+    what->add_flag("--reopen", reopen, "Withdraw the last decision");
+    what->require_option(1);
+    addOption(command, "--by", "NAME", by, "Name of the person who decides")->required();
+    addOption(command, "--comment", "TEXT", comment, "Reason of the decision")->required();
+    addOption(command, "--waive", "CHECK=REASON", waivers,
+              "Waives a failed check for this reason; may be repeated. `whs check --json` "
+              "lists the names of the checks");
+    addChoice(command, "--source", source, {"run", "annotation"},
+              "Pose to decide on: that of the last run, or that of the annotations");
+    addOption(
+        command, "--convergence-test", "N", convergence,
+        "Number of further seeds of the convergence test before a validation; 0: no such test")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    addRecover(command, recover);
+  }
 };
 
 /// "coverage=half of it is dark" and the like.
@@ -48,11 +69,10 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
   // A pose that cannot be validated is rejected at once.
   const std::string concern = sessions::validationConcern(session, subject);
   if (!concern.empty()) throw sessions::DecisionError(concern);
-  std::optional<sessions::ConvergenceResult> convergence;
-  if (arguments.convergence > 0)
-    convergence = sessions::convergenceTest(subject, arguments.convergence);
+  const sessions::ConvergenceResult convergence =
+      sessions::convergenceTest(subject, arguments.convergence);
   return sessions::validated(session, subject, sessions::checkPose(subject, limits, convergence),
-                             waivers, arguments.signature(), convergence ? convergence->seeds : 0);
+                             waivers, arguments.signature(), convergence.seeds);
 }
 
 Session decided(const Session& session, const DecideArguments& arguments) {
@@ -82,44 +102,10 @@ int decide(const DecideArguments& arguments) {
 }  // namespace
 
 void addDecide(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "decide",
-                 "Validates, rejects or approves the pose of a case, with name and comment. Exit "
-                 "status 4: the pose cannot be validated, as a failed check is not waived",
-                 decide);
-  addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->case_id, "Case")->required()->type_name("ID");
-  CLI::Option_group* what = command->add_option_group("What");
-  what->add_flag("--validate", arguments->validate, "Validate the pose");
-  what->add_flag("--reject", arguments->reject, "Reject the result");
-  what->add_flag("--approve", arguments->approve, "Approve a validation as the second person");
-  what->add_flag("--reopen", arguments->reopen, "Withdraw the last decision");
-  what->require_option(1);
-  command->add_option("--by", arguments->by, "Name of the person who decides")
-      ->required()
-      ->type_name("NAME");
-  command->add_option("--comment", arguments->comment, "Reason of the decision")
-      ->required()
-      ->type_name("TEXT");
-  command
-      ->add_option("--waive", arguments->waivers,
-                   "Waives a failed check for this reason; may be repeated. `whs check --json` "
-                   "lists the names of the checks")
-      ->type_name("CHECK=REASON");
-  command
-      ->add_option("--source", arguments->source,
-                   "Pose to decide on: that of the last run, or that of the annotations")
-      ->check(CLI::IsMember({"run", "annotation"}))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--convergence-test", arguments->convergence,
-          "Number of further seeds of the convergence test before a validation; 0: no such test")
-      ->check(CLI::Range(0, 1000))
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_flag("--recover", arguments->recover,
-                    "Recover edits that a killed program left in the session's journal");
+  addCommand(app, exit_code, "decide",
+             "Validates, rejects or approves the pose of a case, with name and comment. Exit "
+             "status 4: the pose cannot be validated, as a failed check is not waived",
+             decide);
 }
 
 }  // namespace boresight::app

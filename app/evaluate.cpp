@@ -24,20 +24,6 @@ namespace {
 
 constexpr std::size_t kListedFailures = 40;
 
-struct EvaluateArguments {
-  DatasetArguments dataset;
-  std::string out;
-  std::string jsonl;
-  std::string bop_csv;
-  std::string mirror;
-  std::string shard;
-  OptionArguments options;
-  MethodArguments method;
-  sessions::BatchOptions batch;
-
-  void addTo(CLI::App& command);
-};
-
 /// The two numbers of "2/8"; nothing unless 1 <= first <= second.
 std::optional<std::pair<int, int>> shardNumbers(const std::string& text) {
   int shard = 0;
@@ -54,55 +40,54 @@ std::string shardProblem(const std::string& text) {
                             : "\"" + text + "\" is not I/N with I from 1 to N, e.g. 2/8";
 }
 
-void EvaluateArguments::addTo(CLI::App& command) {
-  command.add_option("--dataset", dataset.path, "dataset.json, or the folder of a BOP dataset")
-      ->required()
-      ->type_name("PATH");
-  dataset.addTo(command);
-  command.add_option("--case", batch.cases, "Only these cases")->type_name("ID");
-  command.add_option("--tag", batch.tags, "Only cases with one of these tags")->type_name("T");
-  command.add_option("--station", batch.stations, "Only cases of these stations")->type_name("S");
-  method.addTo(command, true);
-  addKernels(command, batch.kernels);
-  options.addTo(command);
-  batch.jobs = 0;
-  command.add_option("--jobs", batch.jobs, "Number of runs in parallel")
-      ->check(CLI::Range(1, 256))
-      ->default_str("one per core")
-      ->type_name("N");
-  addThreads(command, batch.threads);
-  command
-      .add_option("--reseed", batch.reseeds,
-                  "Number of further seeds per case, uniform in the ellipsoids inscribed in its "
-                  "uncertainty")
-      ->check(CLI::Range(0, 1000000))
-      ->type_name("N");
-  command
-      .add_option("--reseed-scale", batch.reseed_scale,
-                  "Factor on the errors of further seeds; the declared uncertainty does not change")
-      ->check(numberIn(0.0, 1000.0))
-      ->capture_default_str()
-      ->type_name("S");
-  command
-      .add_option("--mesh-of", batch.mesh_of,
-                  "Negative test: uses this station's mesh for the cases of all others; a "
-                  "completed run is a gross false positive")
-      ->type_name("STATION");
-  command.add_option("--mirror", mirror, "Negative test: mirrors the mesh across this axis")
-      ->check(CLI::IsMember({"x", "y", "z"}));
-  command
-      .add_option("--shard", shard,
-                  "Runs share I of N of the cases, e.g. 2/8; `whs merge` joins the results")
-      ->check(CLI::Validator(shardProblem, "I/N"))
-      ->type_name("I/N");
-  command.add_flag("--keep-matches", batch.keep_matches,
-                   "Stores every template of every iteration in the results");
-  addFile(command, "--out", out, "Results as an SQLite file; an existing file is continued")
-      ->required();
-  addFile(command, "--jsonl", jsonl, "Results as JSON lines");
-  addFile(command, "--bop-csv", bop_csv,
-          "Results of a BOP dataset in the challenge's format (METHOD_SET-SPLIT.csv)");
-}
+struct EvaluateArguments {
+  DatasetArguments dataset;
+  std::string out, jsonl, bop_csv, mirror, shard;
+  OptionArguments options;
+  MethodArguments method;
+  sessions::BatchOptions batch;
+
+  void addTo(CLI::App& command) {
+    addOption(command, "--dataset", "PATH", dataset.path,
+              "dataset.json, or the folder of a BOP dataset")
+        ->required();
+    dataset.addTo(command);
+    addOption(command, "--case", "ID", batch.cases, "Only these cases");
+    addOption(command, "--tag", "T", batch.tags, "Only cases with one of these tags");
+    addOption(command, "--station", "S", batch.stations, "Only cases of these stations");
+    method.addTo(command, true);
+    addKernels(command, batch.kernels);
+    options.addTo(command);
+    batch.jobs = 0;
+    addOption(command, "--jobs", "N", batch.jobs, "Number of runs in parallel")
+        ->check(CLI::Range(1, 256))
+        ->default_str("one per core");
+    addThreads(command, batch.threads);
+    addOption(command, "--reseed", "N", batch.reseeds,
+              "Number of further seeds per case, uniform in the ellipsoids inscribed in its "
+              "uncertainty")
+        ->check(CLI::Range(0, 1000000));
+    addOption(command, "--reseed-scale", "S", batch.reseed_scale,
+              "Factor on the errors of further seeds; the declared uncertainty does not change")
+        ->check(numberIn(0.0, 1000.0))
+        ->capture_default_str();
+    addOption(command, "--mesh-of", "STATION", batch.mesh_of,
+              "Negative test: uses this station's mesh for the cases of all others; a "
+              "completed run is a gross false positive");
+    addChoice(command, "--mirror", mirror, {"x", "y", "z"},
+              "Negative test: mirrors the mesh across this axis");
+    addOption(command, "--shard", "I/N", shard,
+              "Runs share I of N of the cases, e.g. 2/8; `whs merge` joins the results")
+        ->check(CLI::Validator(shardProblem, "I/N"));
+    command.add_flag("--keep-matches", batch.keep_matches,
+                     "Stores every template of every iteration in the results");
+    addFile(command, "--out", out, "Results as an SQLite file; an existing file is continued")
+        ->required();
+    addFile(command, "--jsonl", jsonl, "Results as JSON lines");
+    addFile(command, "--bop-csv", bop_csv,
+            "Results of a BOP dataset in the challenge's format (METHOD_SET-SPLIT.csv)");
+  }
+};
 
 /// A line on a terminal, and bad inputs once each.
 class Progress {
@@ -153,7 +138,7 @@ sessions::MethodFacts factsOf(const EvaluateArguments& arguments, const std::str
   return facts;
 }
 
-/// What of a plan each method still has to do.
+/// The runs of a plan that each method still has to do.
 using Work = std::vector<std::pair<std::string, std::vector<sessions::PlannedRun>>>;
 
 Work workLeft(const EvaluateArguments& arguments, const std::vector<sessions::PlannedRun>& plan,
@@ -249,8 +234,7 @@ int jobsFor(std::size_t runs) {
 int evaluate(EvaluateArguments& arguments) {
   readArguments(arguments);
   const sessions::Dataset dataset = arguments.dataset.open();
-  for (const std::string& file : {arguments.out, arguments.jsonl, arguments.bop_csv})
-    if (!file.empty()) sessions::requireWritable(file);
+  requireWritable({arguments.out, arguments.jsonl, arguments.bop_csv});
   if (!arguments.bop_csv.empty()) requireOneMethodOfBop(arguments, dataset);
   for (const std::string& line : dataset.notes) note(line);
   const std::vector<sessions::PlannedRun> plan = sessions::planBatch(dataset, arguments.batch);
@@ -270,18 +254,15 @@ int evaluate(EvaluateArguments& arguments) {
   printSummary(results);
   const bool whole = !stop.stop_requested();
   if (!whole) note("interrupted; run the same command again to continue");
-  for (const sessions::RunResult& result : results)
-    if (result.inputFailed()) return kBadInput;
+  if (std::ranges::any_of(results, &sessions::RunResult::inputFailed)) return kBadInput;
   return whole ? kDone : kInternalFault;
 }
 
 }  // namespace
 
 void addEvaluate(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "evaluate",
-                 "Localizes the cases of a dataset and prints a summary of the errors", evaluate);
-  arguments->addTo(*command);
+  addCommand(app, exit_code, "evaluate",
+             "Localizes the cases of a dataset and prints a summary of the errors", evaluate);
 }
 
 }  // namespace boresight::app

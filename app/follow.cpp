@@ -21,35 +21,29 @@ struct FollowArguments : CaseArguments {
   int threads = 0;
   Kernels kernels = bestKernels();
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command) {
+    addOption(command, "--images", "PATH", images,
+              "Folder of the images, a text file with one image a line, or a video")
+        ->required();
+    CaseArguments::addTo(command);
+    command.remove_option(command.get_option("--image"));
+    addUncertaintyTo(command);
+    addEndEffectorTo(command);
+    command.get_option("--camera")->description(kCameraHelp)->required();
+    command.get_option("--mesh")->required();
+    addOption(command, "--motion", "MM DEG", motion,
+              "Largest motion between two images as seen from the camera: a length in mm along "
+              "each axis, an angle in deg about each axis through the station's centre")
+        ->expected(2)
+        ->check(numberIn(0.0, 1000.0))
+        ->default_str("5 1");
+    addThreads(command, threads);
+    addKernels(command, kernels);
+    addFile(command, "--out", out, "Results as an SQLite file; an existing file is continued")
+        ->required();
+    addFile(command, "--jsonl", jsonl, "Results as JSON lines");
+  }
 };
-
-void FollowArguments::addTo(CLI::App& command) {
-  command
-      .add_option("--images", images,
-                  "Folder of the images, a text file with one image a line, or a video")
-      ->required()
-      ->type_name("PATH");
-  CaseArguments::addTo(command);
-  command.remove_option(command.get_option("--image"));
-  addUncertaintyTo(command);
-  addEndEffectorTo(command);
-  command.get_option("--camera")->description(kCameraHelp)->required();
-  command.get_option("--mesh")->required();
-  command
-      .add_option("--motion", motion,
-                  "Largest motion between two images as seen from the camera: a length in mm along "
-                  "each axis, an angle in deg about each axis through the station's centre")
-      ->expected(2)
-      ->check(numberIn(0.0, 1000.0))
-      ->default_str("5 1")
-      ->type_name("MM DEG");
-  addThreads(command, threads);
-  addKernels(command, kernels);
-  addFile(command, "--out", out, "Results as an SQLite file; an existing file is continued")
-      ->required();
-  addFile(command, "--jsonl", jsonl, "Results as JSON lines");
-}
 
 sessions::DeclaredUncertainty motionOf(const FollowArguments& arguments) {
   sessions::DeclaredUncertainty motion = sessions::assumedMotion();
@@ -126,8 +120,7 @@ int follow(FollowArguments& arguments) {
   const sessions::InputPlaces places{
       {}, {arguments.camera, "distortion"}, {}, {arguments.seedFile(), "camera_from_station"}};
   sessions::SequenceInputs inputs = sessions::sequenceInputs(order, places);
-  for (const std::string& file : {arguments.out, arguments.jsonl})
-    if (!file.empty()) sessions::requireWritable(file);
+  requireWritable({arguments.out, arguments.jsonl});
   for (const std::string& line : sequence_case.notes) note(line);
 
   std::stop_source stop;
@@ -152,10 +145,8 @@ int follow(FollowArguments& arguments) {
 }  // namespace
 
 void addFollow(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "follow",
-                 "Localizes the images of a sequence, each from the last accepted pose", follow);
-  arguments->addTo(*command);
+  addCommand(app, exit_code, "follow",
+             "Localizes the images of a sequence, each from the last accepted pose", follow);
 }
 
 }  // namespace boresight::app

@@ -21,11 +21,19 @@ constexpr const char* kAdvice = "add postures that turn about other axes";
 
 struct HandEyeArguments {
   std::vector<std::string> sessions;
-  std::string arm;
-  std::string out;
+  std::string arm, out;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "sessions", sessions, "Session files of one camera")->required();
+    addOption(command, "--arm", "FRAME", arm,
+              "Frame that the cases' frames join with END_EFFECTOR by telemetry")
+        ->required();
+    addFile(command, "--out", out,
+            "Writes camera_from_end_effector with its covariance as a transform for --frames");
+  }
 };
 
-/// What all sessions together say of the arm.
+/// Observations of the arm from all sessions.
 struct ArmObservations {
   std::vector<sessions::ArmPosture> postures;
   std::optional<Pose> start;  ///< the first case's camera_from_end_effector
@@ -93,7 +101,7 @@ void writeHandEye(const HandEyeArguments& arguments, const sessions::HandEye& ha
 }
 
 int handEye(const HandEyeArguments& arguments) {
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  requireWritable({arguments.out});
   ArmObservations observations;
   for (const std::string& file : arguments.sessions)
     addObservations(sessions::readSessionFile(file).session, {arguments.arm, {}}, observations);
@@ -111,19 +119,11 @@ int handEye(const HandEyeArguments& arguments) {
 }  // namespace
 
 void addHandEye(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
+  addCommand(
       app, exit_code, "hand-eye",
       "Estimates the camera's pose on the arm from converged runs in several postures and the "
       "arm's telemetry, with its covariance; reports what the postures cannot determine",
       handEye);
-  addFile(*command, "sessions", arguments->sessions, "Session files of one camera")->required();
-  command
-      ->add_option("--arm", arguments->arm,
-                   "Frame that the cases' frames join with END_EFFECTOR by telemetry")
-      ->type_name("FRAME")
-      ->required();
-  addFile(*command, "--out", arguments->out,
-          "Writes camera_from_end_effector with its covariance as a transform for --frames");
 }
 
 }  // namespace boresight::app

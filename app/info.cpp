@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
@@ -98,18 +99,15 @@ void describeDataset(const sessions::Dataset& dataset) {
   for (const auto& [id, station] : dataset.stations) {
     line("station " + id + ": " + countText(cases_of[id], "case") + ", " +
          countText(station.parts.size(), "part") +
-         (station.feature_size_m ? ", feature size " + millimetresText(*station.feature_size_m)
-                                 : "") +
+         (station.feature_size_m
+              ? ", feature size " + fixedText(1e3 * *station.feature_size_m, 3) + " mm"
+              : "") +
          symmetryText(station.symmetries));
     for (const sessions::PartSource& part : station.parts) line("  part " + partText(part));
   }
   for (const auto& [id, camera] : dataset.cameras) {
     line("camera " + id + ":");
-    sessions::CameraFile described{camera};
-    if (const auto known = dataset.camera_references.find(id);
-        known != dataset.camera_references.end())
-      described.reference = known->second;
-    describeCamera(described);
+    describeCamera(camera);
   }
   std::set<std::string> tags;
   for (const sessions::Case& dataset_case : dataset.cases)
@@ -151,33 +149,24 @@ std::string rerunText(const sessions::RunRecord& run) {
          (run.rerun->from.empty() ? "" : ", continued from run " + run.rerun->from);
 }
 
-/// Of a session's cases: the files that a case shares with the one before are not read again.
-struct CaseSources {
-  const sessions::Session& session;
-  const path& file;
-  std::shared_ptr<const sessions::LoadedCase> before = {};
-  std::multimap<std::string, const sessions::RunRecord*> runs = {};  ///< by case, in their order
-};
-
-void describeCase(const sessions::SessionCase& session_case, CaseSources& sources) {
-  const auto& session = sources.session;
+/// `before`: the case described before, whose files are not read again.
+void describeCase(const sessions::SessionCase& session_case, const sessions::Session& session,
+                  const path& file, std::shared_ptr<const sessions::LoadedCase>& before) {
   line("case " + session_case.id +
        (session_case.station.empty() ? "" : ", station " + session_case.station));
   try {
-    sources.before = sources.before ? reloadCase(*sources.before, session_case)
-                                    : sessions::loadCase(session_case);
-    const sessions::InputSheet sheet = sessions::inputSheet(*sources.before);
+    before = before ? reloadCase(*before, session_case) : sessions::loadCase(session_case);
+    const sessions::InputSheet sheet = sessions::inputSheet(*before);
     for (const sessions::SheetLine& entry : sheet.lines)
       line("  " + entry.label + ": " + entry.value);
     flagAll(sheet.flags);
   } catch (const sessions::InputError& error) {
     flag(error.what());
   }
-  const auto [first, last] = sources.runs.equal_range(session_case.id);
-  for (auto place = first; place != last; ++place) {
-    const sessions::RunRecord& run = *place->second;
+  for (const sessions::RunRecord& run : session.runs) {
+    if (run.case_id != session_case.id) continue;
     line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
-         stalenessText(sessions::stalenessOf(run, session, sources.file)) + rerunText(run) +
+         stalenessText(sessions::stalenessOf(run, session, file)) + rerunText(run) +
          (run.together ? ", " + togetherText(run.together->views, session_case.id) : ""));
   }
   const sessions::ReviewStatus status = sessions::reviewStatusOf(session, session_case.id);
@@ -198,10 +187,10 @@ void describeSession(const path& file) {
   if (document.recovery())
     flag(std::to_string(document.recovery()->edits.size()) +
          " unsaved edits are in its journal, the last of " + document.recovery()->time);
-  CaseSources sources{session, file};
-  for (const sessions::RunRecord& run : session.runs) sources.runs.emplace(run.case_id, &run);
+  std::shared_ptr<const sessions::LoadedCase> before;
   const std::size_t described = std::min(session.cases.size(), kDescribedCases);
-  for (std::size_t i = 0; i < described; ++i) describeCase(*session.cases[i], sources);
+  for (std::size_t i = 0; i < described; ++i)
+    describeCase(*session.cases[i], session, file, before);
   if (described < session.cases.size())
     line("and " + countText(session.cases.size() - described, "more case") +
          ": whs queue lists them");
@@ -335,6 +324,13 @@ void describeRig(const path& file) {
   }
 }
 
+void describeConfig(const sessions::Config& config) {
+  LocalizerOptions options = profileOptions(config.profile);
+  sessions::applyConfig(options, config);  // rejects unknown options
+  line("profile " + config.profile + ", " + std::to_string(config.options.size()) +
+       " options differ: " + sessions::toJson(config.options).dump());
+}
+
 void describeJson(const path& file) {
   const sessions::JsonDocument document(file);
   const auto stated = document.root().find("format");
@@ -344,33 +340,19 @@ void describeJson(const path& file) {
                                "\"boresight-camera\", \"version\": 1");
   const std::string format = stated->nonEmptyText();
   line(format);
-  if (format == "boresight-camera") {
-    describeCamera(sessions::readCameraFile(file));
-  } else if (format == "boresight-pose") {
-    describePoseFile(file, document.root());
-  } else if (format == "boresight-transform" || format == "boresight-frames") {
-    describeFrames(file);
-  } else if (format == "boresight-dataset") {
-    describeDataset(sessions::readDataset(file));
-  } else if (format == "boresight-points") {
-    describeAnnotations(sessions::readAnnotations(file));
-  } else if (format == sessions::kSessionFormat) {
-    describeSession(file);
-  } else if (format == "boresight-config") {
-    const sessions::Config config = sessions::readConfig(file);
-    LocalizerOptions options = profileOptions(config.profile);
-    sessions::applyConfig(options, config);
-    line("profile " + config.profile + ", " + std::to_string(config.options.size()) +
-         " options differ: " + sessions::toJson(config.options).dump());
-  } else if (format == sessions::kValidatedPoseFormat) {
-    describeValidatedPose(document.root());
-  } else if (format == "boresight-rig") {
-    describeRig(file);
-  } else if (format == "boresight-landmarks") {
-    line(countText(sessions::readLandmarks(file).size(), "landmark"));
-  } else if (format != "boresight-result") {
+  if (format == "boresight-camera") return describeCamera(sessions::readCameraFile(file));
+  if (format == "boresight-pose") return describePoseFile(file, document.root());
+  if (format == "boresight-transform" || format == "boresight-frames") return describeFrames(file);
+  if (format == "boresight-dataset") return describeDataset(sessions::readDataset(file));
+  if (format == "boresight-points") return describeAnnotations(sessions::readAnnotations(file));
+  if (format == sessions::kSessionFormat) return describeSession(file);
+  if (format == "boresight-config") return describeConfig(sessions::readConfig(file));
+  if (format == sessions::kValidatedPoseFormat) return describeValidatedPose(document.root());
+  if (format == "boresight-rig") return describeRig(file);
+  if (format == "boresight-landmarks")
+    return line(countText(sessions::readLandmarks(file).size(), "landmark"));
+  if (format != "boresight-result")
     throw sessions::InputError(file, "format", "\"" + format + "\" is not known");
-  }
 }
 
 void describeMesh(const path& file, const std::string& unit) {
@@ -422,7 +404,7 @@ void describeImage(const path& file) {
   line("to 8 bit: " + image.rule);
   const sessions::ImageSheet sheet = sessions::imageSheet(image);
   line("gray " + std::to_string(sheet.lowest_gray) + " .. " + std::to_string(sheet.highest_gray) +
-       ", " + fixedText(100.0 * sheet.saturated_share, 2) + " % saturated");
+       ", " + sessions::percentText(sheet.saturated_share, 2) + " saturated");
   line("sha256 " + image.file_sha256);
   flagAll(sheet.flags);
   if (image.label) describeLabel(*image.label);
@@ -452,28 +434,29 @@ void describe(const path& file, const std::string& mesh_unit, const DatasetArgum
   const auto is = [&extension](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), extension) != names.end();
   };
-  if (sessions::isCahvorFile(file)) {
-    describeCamera(sessions::readCahvorCamera(file));
-  } else if (is({".json"})) {
-    describeJson(file);
-  } else if (is({".ply", ".obj", ".stl", ".gltf", ".glb"})) {
-    describeMesh(file, mesh_unit);
-  } else if (is({".png", ".jpg", ".jpeg", ".tif", ".tiff"}) || sessions::hasImageLabel(file)) {
-    describeImage(file);
-  } else if (is({".whsr"})) {
-    describeRecord(sessions::readRecord(file));
-  } else if (beginsLikeTrace(file)) {
-    describeTrace(file);
-  } else {
-    throw sessions::InputError(file,
-                               "neither an image, a mesh, a JSON file, a record, nor a trace");
-  }
+  if (sessions::isCahvorFile(file)) return describeCamera(sessions::readCahvorCamera(file));
+  if (is({".json"})) return describeJson(file);
+  if (is({".ply", ".obj", ".stl", ".gltf", ".glb"})) return describeMesh(file, mesh_unit);
+  if (is({".png", ".jpg", ".jpeg", ".tif", ".tiff"}) || sessions::hasImageLabel(file))
+    return describeImage(file);
+  if (is({".whsr"})) return describeRecord(sessions::readRecord(file));
+  if (beginsLikeTrace(file)) return describeTrace(file);
+  throw sessions::InputError(file, "neither an image, a mesh, a JSON file, a record, nor a trace");
 }
 
 struct InfoArguments {
   std::vector<std::string> files;
   std::string mesh_unit;
   DatasetArguments choice;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "files", files,
+            "Images, cameras, meshes, poses (validated ones, too), transforms, datasets, sessions, "
+            "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")
+        ->required();
+    addMeshUnit(command, mesh_unit, "Unit of meshes without one");
+    choice.addTo(command);
+  }
 };
 
 /// Every file is described; a bad one does not keep the others from it.
@@ -494,15 +477,8 @@ int describeAll(const InfoArguments& arguments) {
 }  // namespace
 
 void addInfo(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "info",
-                 "Describes files: size, unit, camera model, field of view, warnings", describeAll);
-  addFile(*command, "files", arguments->files,
-          "Images, cameras, meshes, poses (validated ones, too), transforms, datasets, sessions, "
-          "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")
-      ->required();
-  addMeshUnit(*command, arguments->mesh_unit, "Unit of meshes without one");
-  arguments->choice.addTo(*command);
+  addCommand(app, exit_code, "info",
+             "Describes files: size, unit, camera model, field of view, warnings", describeAll);
 }
 
 }  // namespace boresight::app

@@ -8,13 +8,13 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/images/image_file.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/report/result_file.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/text/text_table.h"
-#include "sessions/trace/acceptance.h"
 #include "sessions/trace/overlay.h"
 #include "sessions/trace/run_text.h"
 #include "sessions/trace/trace_file.h"
@@ -28,26 +28,24 @@ struct LocalizeArguments : CaseArguments {
   Kernels kernels = bestKernels();
   std::string out, trace, record, overlay;
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command) {
+    CaseArguments::addTo(command);
+    addUncertaintyTo(command);
+    addTruthTo(command);
+    addEndEffectorTo(command);
+    addRequirementTo(command);
+    for (const char* name : {"--image", "--mesh"}) command.get_option(name)->required();
+    method.addTo(command, false);
+    addThreads(command, threads);
+    addKernels(command, kernels);
+    addFile(command, "--out", out, "Writes the result as JSON");
+    addFile(command, "--trace", trace, "Writes all intermediate results (binary)");
+    addFile(command, "--record", record,
+            "Writes the onboard record of the run, run.whsr (core/record/FORMAT.md)");
+    addFile(command, "--overlay", overlay,
+            "Writes a PNG: seed orange, result blue, truth white over the image");
+  }
 };
-
-void LocalizeArguments::addTo(CLI::App& command) {
-  CaseArguments::addTo(command);
-  addUncertaintyTo(command);
-  addTruthTo(command);
-  addEndEffectorTo(command);
-  addRequirementTo(command);
-  for (const char* name : {"--image", "--mesh"}) command.get_option(name)->required();
-  method.addTo(command, false);
-  addThreads(command, threads);
-  addKernels(command, kernels);
-  addFile(command, "--out", out, "Writes the result as JSON");
-  addFile(command, "--trace", trace, "Writes all intermediate results (binary)");
-  addFile(command, "--record", record,
-          "Writes the onboard record of the run, run.whsr (core/record/FORMAT.md)");
-  addFile(command, "--overlay", overlay,
-          "Writes a PNG: seed orange, result blue, truth white over the image");
-}
 
 sessions::RunProvenance provenance(const LocalizeArguments& arguments, const ReadCase& input,
                                    const LocalizerOptions& options) {
@@ -117,7 +115,7 @@ void printResult(const sessions::LocalizationTrace& trace, const sessions::Loade
   std::cout << "image at the seed: " << sessions::imageQualityText(quality) << "\n";
   if (trace.converged()) {
     std::cout << "converged in " << trace.iterations.size() << " iterations, edge support "
-              << fixedText(100.0 * trace.support.share(), 1) << " %, "
+              << sessions::percentText(trace.support.share(), 1) << ", "
               << fixedText(trace.seconds.total(), 2) << " s\n"
               << sessions::acceptanceText(trace) << "\n\n"
               << sessions::poseText(trace.camera_from_station, trace.covariance)
@@ -133,9 +131,7 @@ void printResult(const sessions::LocalizationTrace& trace, const sessions::Loade
   }
   if (error) {
     std::cout << (trace.converged() ? "against the truth" : "the seed against the truth")
-              << " (at the camera): normal " << fixedText(error->normal_mm, 3) << " mm, lateral "
-              << fixedText(error->lateral_mm, 3) << " mm, rotation "
-              << fixedText(error->rotation_mrad, 3) << " mrad";
+              << " (at the camera): " << errorText(*error);
     if (error->projection_px)
       std::cout << ", projection " << fixedText(*error->projection_px, 2) << " px";
     std::cout << "\n";
@@ -168,9 +164,7 @@ int localizeImage(const LocalizeArguments& arguments) {
   const ReadCase input = readCase(arguments);
   const sessions::LoadedCase& loaded = *input.loaded;
   const LocalizerOptions options = arguments.optionsOf(loaded.source);
-  for (const std::string& file :
-       {arguments.out, arguments.trace, arguments.record, arguments.overlay})
-    if (!file.empty()) sessions::requireWritable(file);
+  requireWritable({arguments.out, arguments.trace, arguments.record, arguments.overlay});
   requireRunnable(loaded, arguments.cameraFile(), arguments.seedFile());
   for (const std::string& line : input.notes) note(line);
   sessions::RunSettings settings;
@@ -194,7 +188,8 @@ int localizeImage(const LocalizeArguments& arguments) {
   printResult(trace, loaded, sessions::imageQualityOf(loaded.problem()), error);
   if (settings.memory_limit > 0) std::cout << "\n" << sessions::memoryTable(trace) << std::flush;
   if (!arguments.out.empty())
-    sessions::writeResult(arguments.out, trace, error, provenance(arguments, input, options));
+    sessions::writeJsonFile(
+        arguments.out, sessions::resultJson(trace, error, provenance(arguments, input, options)));
   if (!arguments.trace.empty()) sessions::saveTrace(arguments.trace, trace);
   if (!arguments.record.empty()) writeRecord(arguments.record, record);
   if (!arguments.overlay.empty()) writeOverlay(arguments.overlay, loaded, trace);
@@ -206,10 +201,9 @@ int localizeImage(const LocalizeArguments& arguments) {
 }  // namespace
 
 void addLocalize(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "localize",
-      "Finds the camera's pose relative to a station in one image, from a seed", localizeImage);
-  arguments->addTo(*command);
+  addCommand(app, exit_code, "localize",
+             "Finds the camera's pose relative to a station in one image, from a seed",
+             localizeImage);
 }
 
 }  // namespace boresight::app

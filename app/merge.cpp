@@ -9,6 +9,13 @@ namespace {
 struct MergeArguments {
   std::string out;
   std::vector<std::string> inputs;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "OUT", out,
+            "Output file; runs in an existing file are kept, also when it is one of the inputs")
+        ->required();
+    addFile(command, "IN", inputs, "Results files")->required();
+  }
 };
 
 int merge(const MergeArguments& arguments) {
@@ -22,14 +29,10 @@ int merge(const MergeArguments& arguments) {
 }  // namespace
 
 void addMerge(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "merge",
-                 "Merges results of `whs evaluate`, e.g. of shards, into one file; runs that "
-                 "contradict each other are refused",
-                 merge);
-  addFile(*command, "OUT", arguments->out, "Output file; runs in an existing file are kept, also when it is one of the inputs")
-      ->required();
-  addFile(*command, "IN", arguments->inputs, "Results files")->required();
+  addCommand(app, exit_code, "merge",
+             "Merges results of `whs evaluate`, e.g. of shards, into one file; runs that "
+             "contradict each other are refused",
+             merge);
 }
 
 }  // namespace boresight::app

@@ -20,41 +20,37 @@ struct NewArguments : CaseArguments {
   std::string id, record, out;
   std::optional<double> mesh_scale_sigma;
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command) {
+    CLI::Option* from_dataset =
+        addFile(command, "--dataset", dataset.path,
+                "dataset.json or folder of a BOP dataset with the session's cases");
+    addOption(command, "--case", "ID", cases, "Only this case of the dataset; may be repeated")
+        ->needs(from_dataset);
+    addFile(
+        command, "--results", results,
+        "Results of `whs evaluate`: each run becomes a case with its seed and options, the worst "
+        "first")
+        ->excludes(from_dataset);
+    CaseArguments::addTo(command);
+    addTruthTo(command);
+    addEndEffectorTo(command);
+    addRequirementTo(command);
+    command.add_option("--id", id, "Name of the case (default: the image's)");
+    addOption(command, "--mesh-scale-sigma", "S", mesh_scale_sigma,
+              "One sigma of the mesh's scale, relative (default: 0.0002)")
+        ->check(numberIn(0.0, sessions::kMaxScaleSigma));
+    CLI::Option* from_image = command.get_option("--image")->excludes(from_dataset);
+    for (const char* name :
+         {"--camera", "--frames", "--mesh", "--mesh-unit", "--seed", "--truth", "--ignore", "--id",
+          "--bit-depth", "--levels", "--bayer", "--feature-size", "--mesh-scale-sigma",
+          "--end-effector", "--requirement"})
+      command.get_option(name)->needs(from_image);
+    addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
+    dataset.addTo(command);
+    command.get_option("--part")->needs(from_dataset);
+    addFile(command, "--out", out, "Session file to create, e.g. sol12.boresight.json")->required();
+  }
 };
-
-void NewArguments::addTo(CLI::App& command) {
-  CLI::Option* from_dataset =
-      addFile(command, "--dataset", dataset.path,
-              "dataset.json or folder of a BOP dataset with the session's cases");
-  command.add_option("--case", cases, "Only this case of the dataset; may be repeated")
-      ->needs(from_dataset)
-      ->type_name("ID");
-  addFile(command, "--results", results,
-          "Results of `whs evaluate`: each run becomes a case with its seed and options, the worst "
-          "first")
-      ->excludes(from_dataset);
-  CaseArguments::addTo(command);
-  addTruthTo(command);
-  addEndEffectorTo(command);
-  addRequirementTo(command);
-  command.add_option("--id", id, "Name of the case (default: the image's)");
-  command
-      .add_option("--mesh-scale-sigma", mesh_scale_sigma,
-                  "One sigma of the mesh's scale, relative (default: 0.0002)")
-      ->check(numberIn(0.0, sessions::kMaxScaleSigma))
-      ->type_name("S");
-  CLI::Option* from_image = command.get_option("--image")->excludes(from_dataset);
-  for (const char* name :
-       {"--camera", "--frames", "--mesh", "--mesh-unit", "--seed", "--truth", "--ignore", "--id",
-        "--bit-depth", "--levels", "--bayer", "--feature-size", "--mesh-scale-sigma",
-        "--end-effector", "--requirement"})
-    command.get_option(name)->needs(from_image);
-  addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
-  dataset.addTo(command);
-  command.get_option("--part")->needs(from_dataset);
-  addFile(command, "--out", out, "Session file to create, e.g. sol12.boresight.json")->required();
-}
 
 /// Refuses inputs that an edit of the session cannot correct: an image of another size than the
 /// camera's, a camera that folds. A seed can be moved later.
@@ -119,10 +115,8 @@ int makeNew(const NewArguments& arguments) {
 }  // namespace
 
 void addNew(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "new",
-                 "Creates a session from a dataset or from the files of one case", makeNew);
-  arguments->addTo(*command);
+  addCommand(app, exit_code, "new",
+             "Creates a session from a dataset or from the files of one case", makeNew);
 }
 
 }  // namespace boresight::app

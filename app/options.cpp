@@ -11,7 +11,7 @@
 #include "sessions/decision/check_limits.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/json/json_writer.h"
-#include "sessions/text/text_table.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::app {
 namespace {
@@ -22,12 +22,8 @@ using Options = std::vector<OptionDescription>;
 
 /// "0 .. 10", or the choices.
 std::string rangeText(const OptionDescription& option) {
-  std::string text;
   if (option.kind == OptionKind::kBoolean) return "true, false";
-  if (option.kind == OptionKind::kChoice) {
-    for (const std::string& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
-    return text;
-  }
+  if (option.kind == OptionKind::kChoice) return sessions::joined(option.choices);
   return sessions::numberText(option.minimum) + " .. " + sessions::numberText(option.maximum);
 }
 
@@ -85,6 +81,15 @@ void printList(const std::vector<OptionDescription>& options) {
 struct OptionsArguments {
   OptionArguments options;
   std::string table, dictionary;
+
+  void addTo(CLI::App& command) {
+    options.addTo(command);
+    addFile(command, "--table", table,
+            "Writes the options as a binary table with a checksum, which --config and the flight "
+            "driver read");
+    addFile(command, "--dictionary", dictionary,
+            "Writes a description of the table's parameters as JSON");
+  }
 };
 
 void writeTable(const std::string& file, const LocalizerOptions& options) {
@@ -155,7 +160,7 @@ std::string optionsPage() {
 std::string commandsPage(const CLI::App& app) {
   std::string text = "# whs, command by command\n\nExit status: " + markdownText(kExitStatusText) +
                      "\n\n" + commandText(app);
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* command : app.get_subcommands({}))
     if (!command->get_group().empty())
       text += "\n## whs " + command->get_name() + "\n\n" + commandText(*command);
   return text;
@@ -164,17 +169,10 @@ std::string commandsPage(const CLI::App& app) {
 }  // namespace
 
 void addOptions(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "options",
-      "Lists every option of a run: value, range, meaning; or writes them as a table for "
-      "uplink",
-      printOptions);
-  arguments->options.addTo(*command);
-  addFile(*command, "--table", arguments->table,
-          "Writes the options as a binary table with a checksum, which --config and the flight "
-          "driver read");
-  addFile(*command, "--dictionary", arguments->dictionary,
-          "Writes a description of the table's parameters as JSON");
+  addCommand(app, exit_code, "options",
+             "Lists every option of a run: value, range, meaning; or writes them as a table for "
+             "uplink",
+             printOptions);
 }
 
 /// Writes the manual's pages of commands and options, for the build: hidden from the help.
@@ -182,7 +180,7 @@ void addDocuments(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("documents", "Writes pages of the manual");
   command->group("");
   auto folder = std::make_shared<std::string>();
-  command->add_option("folder", *folder, "Folder of the pages")->required()->type_name("DIR");
+  addOption(*command, "folder", "DIR", *folder, "Folder of the pages")->required();
   command->callback([folder, &app, &exit_code] {
     exit_code = writePages(*folder, {{"options.md", optionsPage()}, {"whs.md", commandsPage(app)}});
   });

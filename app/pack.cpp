@@ -10,6 +10,11 @@ namespace {
 
 struct PackArguments {
   std::string session, out;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "session", session, "Session file")->required();
+    addFile(command, "--out", out, "Zip archive to create")->required();
+  }
 };
 
 int writePack(const PackArguments& arguments) {
@@ -27,14 +32,11 @@ int writePack(const PackArguments& arguments) {
 }  // namespace
 
 void addPack(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "pack",
-                 "Packs a session, its inputs and its runs into one archive for another machine. "
-                 "Prints each file first. Refuses a file whose hash differs from the session's, or "
-                 "that lies outside the folders of session and inputs",
-                 writePack);
-  addFile(*command, "session", arguments->session, "Session file")->required();
-  addFile(*command, "--out", arguments->out, "Zip archive to create")->required();
+  addCommand(app, exit_code, "pack",
+             "Packs a session, its inputs and its runs into one archive for another machine. "
+             "Prints each file first. Refuses a file whose hash differs from the session's, or "
+             "that lies outside the folders of session and inputs",
+             writePack);
 }
 
 }  // namespace boresight::app

@@ -10,28 +10,25 @@ namespace boresight::app {
 namespace {
 
 struct ProblemArguments : CaseArguments {
-  std::string dataset, case_id;
-  std::string out, image_out;
+  std::string dataset, case_id, out, image_out;
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command) {
+    CaseArguments::addTo(command);
+    addUncertaintyTo(command);
+    addEndEffectorTo(command);
+    addFile(command, "--dataset", dataset, "dataset.json with the case (replaces the files above)");
+    addOption(command, "--case", "ID", case_id, "Case of the dataset");
+    for (const char* name :
+         {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore", "--uncertainty",
+          "--pivot", "--bit-depth", "--levels", "--bayer", "--end-effector"})
+      command.get_option(name)->excludes("--dataset");
+    command.get_option("--dataset")->needs("--case");
+    command.get_option("--case")->needs("--dataset");
+    addFile(command, "--out", out, "Problem file: all inputs except the pixels")->required();
+    addFile(command, "--image-out", image_out, "Image file: the 8-bit gray pixels as a binary PGM")
+        ->required();
+  }
 };
-
-void ProblemArguments::addTo(CLI::App& command) {
-  CaseArguments::addTo(command);
-  addUncertaintyTo(command);
-  addEndEffectorTo(command);
-  addFile(command, "--dataset", dataset, "dataset.json with the case (replaces the files above)");
-  command.add_option("--case", case_id, "Case of the dataset")->type_name("ID");
-  for (const char* name :
-       {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore", "--uncertainty",
-        "--pivot", "--bit-depth", "--levels", "--bayer", "--end-effector"})
-    command.get_option(name)->excludes("--dataset");
-  command.get_option("--dataset")->needs("--case");
-  command.get_option("--case")->needs("--dataset");
-  addFile(command, "--out", out, "Problem file: all inputs except the pixels")->required();
-  addFile(command, "--image-out", image_out, "Image file: the 8-bit gray pixels as a binary PGM")
-      ->required();
-}
 
 /// The case as evaluate runs it from its own seed.
 ReadCase readCaseOfDataset(const ProblemArguments& arguments) {
@@ -82,10 +79,9 @@ int writeProblem(const ProblemArguments& arguments) {
 }  // namespace
 
 void addProblem(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "problem",
-      "Writes one localization for the flight driver: binary problem and pixels", writeProblem);
-  arguments->addTo(*command);
+  addCommand(app, exit_code, "problem",
+             "Writes one localization for the flight driver: binary problem and pixels",
+             writeProblem);
 }
 
 }  // namespace boresight::app

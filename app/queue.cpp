@@ -14,10 +14,25 @@ namespace boresight::app {
 namespace {
 
 struct QueueArguments {
-  std::string session;
-  std::string csv;
+  std::string session, csv;
   int jobs = 1;
   bool differences = false;
+
+  void addTo(CLI::App& command) {
+    addFile(
+        command, "session", session,
+        "Session file, or results of `whs evaluate` (.sqlite), whose runs are listed as they ended")
+        ->required();
+    command.add_option("--jobs", jobs, "Number of cases that are checked in parallel")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    CLI::Option* list = addFile(command, "--csv", csv, "Write the list to this file");
+    command
+        .add_flag("--differences", differences,
+                  "Compare each case's last run with the previous run instead: better or worse by "
+                  "the truth, or by the checks without truth")
+        ->excludes(list);
+  }
 };
 
 int listQueue(const std::vector<sessions::QueueRow>& rows, const QueueArguments& arguments) {
@@ -62,7 +77,7 @@ int queue(const QueueArguments& arguments) {
     throw CLI::ValidationError("--differences",
                                "needs a session; to compare results use "
                                "`whs tables RESULTS --against RESULTS`");
-  if (!arguments.csv.empty()) sessions::requireWritable(arguments.csv);
+  requireWritable({arguments.csv});
   if (isResults(file)) return listQueue(sessions::resultsQueue(file), arguments);
   const sessions::SessionDocument document = openToRead(file);
   return arguments.differences
@@ -73,25 +88,11 @@ int queue(const QueueArguments& arguments) {
 }  // namespace
 
 void addQueue(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
+  addCommand(
       app, exit_code, "queue",
       "Checks the last runs of a session's cases and lists the worst first: failed runs, failed "
       "checks, smallest margin to a limit, largest distance from the seed. Decided cases come last",
       queue);
-  addFile(
-      *command, "session", arguments->session,
-      "Session file, or results of `whs evaluate` (.sqlite), whose runs are listed as they ended")
-      ->required();
-  command->add_option("--jobs", arguments->jobs, "Number of cases that are checked in parallel")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  auto* csv = command->add_option("--csv", arguments->csv, "Write the list to this file");
-  csv->type_name("FILE");
-  command
-      ->add_flag("--differences", arguments->differences,
-                 "Compare each case's last run with the previous run instead: better or worse by "
-                 "the truth, or by the checks without truth")
-      ->excludes(csv);
 }
 
 }  // namespace boresight::app

@@ -14,10 +14,16 @@ namespace {
 
 struct RenderArguments {
   FrameArguments frames;
-  std::string mesh, mesh_unit;
-  std::string camera;
-  std::string pose;
-  std::string out;
+  std::string mesh, mesh_unit, camera, pose, out;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "--mesh", mesh, kMeshHelp)->required();
+    addMeshUnit(command, mesh_unit, kMeshUnitHelp);
+    frames.addTo(command);
+    addFile(command, "--camera", camera, kCameraHelp)->required();
+    addFile(command, "--pose", pose, "pose.json")->required();
+    addFile(command, "--out", out, "PNG: white edges on black")->required();
+  }
 };
 
 int render(const RenderArguments& arguments) {
@@ -52,14 +58,8 @@ int render(const RenderArguments& arguments) {
 }  // namespace
 
 void addRender(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "render", "Draws the salient edges of a mesh seen from a pose", render);
-  addFile(*command, "--mesh", arguments->mesh, kMeshHelp)->required();
-  addMeshUnit(*command, arguments->mesh_unit, kMeshUnitHelp);
-  arguments->frames.addTo(*command);
-  addFile(*command, "--camera", arguments->camera, kCameraHelp)->required();
-  addFile(*command, "--pose", arguments->pose, "pose.json")->required();
-  addFile(*command, "--out", arguments->out, "PNG: white edges on black")->required();
+  addCommand(app, exit_code, "render", "Draws the salient edges of a mesh seen from a pose",
+             render);
 }
 
 }  // namespace boresight::app

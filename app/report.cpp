@@ -8,9 +8,13 @@ namespace boresight::app {
 namespace {
 
 struct ReportArguments {
-  std::string session;
-  std::string case_id;
-  std::string out;
+  std::string session, case_id, out;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "session", session, "Session file")->required();
+    addOption(command, "--case", "ID", case_id, "Case; required if the session has several");
+    addFile(command, "--out", out, "PDF file")->required();
+  }
 };
 
 int report(const ReportArguments& arguments) {
@@ -30,15 +34,10 @@ int report(const ReportArguments& arguments) {
 }  // namespace
 
 void addReport(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "report",
-                 "Writes a two-page PDF report of a case's pose: overlay, pose, inputs, decision, "
-                 "checks, residuals, iterations",
-                 report);
-  addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->case_id, "Case; required if the session has several")
-      ->type_name("ID");
-  addFile(*command, "--out", arguments->out, "PDF file")->required();
+  addCommand(app, exit_code, "report",
+             "Writes a two-page PDF report of a case's pose: overlay, pose, inputs, decision, "
+             "checks, residuals, iterations",
+             report);
 }
 
 }  // namespace boresight::app

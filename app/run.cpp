@@ -9,6 +9,7 @@
 #include "sessions/session/stated_inputs.h"
 #include "sessions/session/views_run.h"
 #include "sessions/text/plain_text.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::app {
 namespace {
@@ -20,17 +21,27 @@ struct RunArguments {
   CaseArguments stated;  ///< of it --end-effector, --requirement and --frames
   bool recover = false;
   bool views = false;
-};
 
-/// The cases to run: the requested ones, or all.
-std::vector<std::string> selectedCases(const sessions::SessionDocument& document,
-                                       const std::vector<std::string>& asked) {
-  for (const std::string& id : asked) (void)requireCase(document, id);
-  if (!asked.empty()) return asked;
-  std::vector<std::string> all;
-  for (const auto& session_case : document.session().cases) all.push_back(session_case->id);
-  return all;
-}
+  void addTo(CLI::App& command) {
+    addFile(command, "session", session, "Session file")->required();
+    addOption(command, "--case", "ID", cases, "Only this case; may be repeated");
+    addOption(command, "--again", "DIGEST", again,
+              "Repeat the recorded run whose digest begins with these digits, with its "
+              "options, and compare the digests")
+        ->excludes("--case");
+    command
+        .add_flag("--views", views,
+                  "Run each case together with the other views of its rig as one pose; the first "
+                  "case of a rig gives seed and uncertainty")
+        ->excludes("--again");
+    stated.addEndEffectorTo(command);
+    stated.addRequirementTo(command);
+    stated.frames.addTo(command);
+    for (const char* name : {"--end-effector", "--requirement", "--frames"})
+      command.get_option(name)->excludes("--again");
+    addRecover(command, recover);
+  }
+};
 
 /// Runs and records one case; a line to stdout, a reason for a failure to stderr.
 int runOne(sessions::SessionDocument& document, const std::string& id) {
@@ -72,7 +83,7 @@ bool rigHasRun(const sessions::Session& session, const std::string& id,
   });
 }
 
-/// Runs a recorded run once more, by the options that it had, and says whether it is the same.
+/// Repeats a recorded run with its options and reports whether the digest is the same.
 int runAgain(const sessions::SessionDocument& document, const std::string& beginning) {
   const sessions::RunRecord& run = recordedRun(document, beginning);
   const sessions::LocalizationTrace trace = sessions::repeatRun(
@@ -98,7 +109,7 @@ void takeStated(sessions::SessionDocument& document, const std::vector<std::stri
 int runSession(const RunArguments& arguments) {
   sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
   if (!arguments.again.empty()) return runAgain(document, arguments.again);
-  const std::vector<std::string> case_ids = selectedCases(document, arguments.cases);
+  const std::vector<std::string> case_ids = requestedCases(document, arguments.cases);
   takeStated(document, case_ids, arguments.stated);
   int exit_code = kDone;
   std::vector<std::string> led;
@@ -112,7 +123,7 @@ int runSession(const RunArguments& arguments) {
       const int code = together ? runTogether(document, id) : runOne(document, id);
       if (exit_code == kDone) exit_code = code;
     } catch (const sessions::InputError& error) {
-      // What a case itself is at fault for names it already.
+      // Errors of the case itself name it already.
       const std::string place = "case " + id + ": ", what = error.what();
       std::cerr << sessions::plainLine(what.starts_with(place) ? what : place + what);
       exit_code = kBadInput;
@@ -125,29 +136,8 @@ int runSession(const RunArguments& arguments) {
 }  // namespace
 
 void addRun(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "run", "Runs the cases of a session and records the runs in it", runSession);
-  addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->cases, "Only this case; may be repeated")
-      ->type_name("ID");
-  command
-      ->add_option("--again", arguments->again,
-                   "Repeat the recorded run whose digest begins with these digits, with its "
-                   "options, and compare the digests")
-      ->type_name("DIGEST")
-      ->excludes("--case");
-  command
-      ->add_flag("--views", arguments->views,
-                 "Run each case together with the other views of its rig as one pose; the first "
-                 "case of a rig gives seed and uncertainty")
-      ->excludes("--again");
-  arguments->stated.addEndEffectorTo(*command);
-  arguments->stated.addRequirementTo(*command);
-  arguments->stated.frames.addTo(*command);
-  for (const char* name : {"--end-effector", "--requirement", "--frames"})
-    command->get_option(name)->excludes("--again");
-  command->add_flag("--recover", arguments->recover,
-                    "Recover edits that a killed program left in the session's journal");
+  addCommand(app, exit_code, "run", "Runs the cases of a session and records the runs in it",
+             runSession);
 }
 
 }  // namespace boresight::app

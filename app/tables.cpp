@@ -26,60 +26,46 @@ struct TablesArguments {
   std::vector<std::string> tables;
   sessions::ResultsFilter filter;
   std::string format = "text";
-  std::string out;
-  std::string figures;
-  std::string failures;
-  std::string instructions;
+  std::string out, figures, failures, instructions;
   double demonstrate_percent = 0.0;  ///< 0: no such table
   std::vector<std::string> figure_formats = {"pdf"};
   bool paper = false;
   bool all = false;
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command) {
+    addFile(command, "RESULTS", results, "Results of `whs evaluate`")->required();
+    addFile(command, "--against", against,
+            "Compares RESULTS (before) with these results (after), run by run");
+    command.add_flag("--all", all, "With --against: also lists unchanged runs");
+    command
+        .add_option("--table", tables,
+                    "Tables to print: errors, success, strata, tolerance, times (default: all)")
+        ->check(CLI::IsMember({"errors", "success", "strata", "tolerance", "times"}));
+    addOption(command, "--station", "S", filter.stations, "Only runs of these stations");
+    addOption(command, "--tag", "T", filter.tags, "Only runs with one of these tags");
+    addOption(command, "--method", "M", filter.methods, "Only runs of these methods");
+    command.add_flag("--paper", paper,
+                     "Adds the figures of Pham et al. 2025, with notes on the comparison");
+    addFile(command, "--instructions", instructions,
+            "Adds a table of minutes at 200 MHz from counts of tests/benchmarks/instructions.sh");
+    addOption(command, "--demonstrate", "P", demonstrate_percent,
+              "Adds a table: runs that demonstrate this success rate, percent, at 95 % "
+              "confidence")
+        ->check(CLI::Range(1.0, 99.9999));
+    addChoice(command, "--format", format, {"text", "csv", "latex"}, "text, csv or latex")
+        ->type_name("F");
+    addFile(command, "--out", out, "Writes the tables to this file instead of the terminal");
+    addOption(command, "--figures", "FOLDER", figures,
+              "Draws the figures into this folder: error_strips, error_distribution, "
+              "success_tolerance, success_seed_error, time_accuracy");
+    addOption(command, "--failures", "FOLDER", failures,
+              "Draws each unsuccessful run into this folder, with the cause of failure; needs "
+              "the dataset's images");
+    addChoice(command, "--figure-format", figure_formats, {"pdf", "svg", "png"},
+              "Formats of the figures: pdf, svg, png")
+        ->type_name("F");
+  }
 };
-
-void TablesArguments::addTo(CLI::App& command) {
-  addFile(command, "RESULTS", results, "Results of `whs evaluate`")->required();
-  addFile(command, "--against", against,
-          "Compares RESULTS (before) with these results (after), run by run");
-  command.add_flag("--all", all, "With --against: also lists unchanged runs");
-  command
-      .add_option("--table", tables,
-                  "Tables to print: errors, success, strata, tolerance, times (default: all)")
-      ->check(CLI::IsMember({"errors", "success", "strata", "tolerance", "times"}));
-  command.add_option("--station", filter.stations, "Only runs of these stations")->type_name("S");
-  command.add_option("--tag", filter.tags, "Only runs with one of these tags")->type_name("T");
-  command.add_option("--method", filter.methods, "Only runs of these methods")->type_name("M");
-  command.add_flag("--paper", paper,
-                   "Adds the figures of Pham et al. 2025, with notes on the comparison");
-  addFile(command, "--instructions", instructions,
-          "Adds a table of minutes at 200 MHz from counts of tests/benchmarks/instructions.sh");
-  command
-      .add_option("--demonstrate", demonstrate_percent,
-                  "Adds a table: runs that demonstrate this success rate, percent, at 95 % "
-                  "confidence")
-      ->check(CLI::Range(1.0, 99.9999))
-      ->type_name("P");
-  command.add_option("--format", format, "text, csv or latex")
-      ->check(CLI::IsMember({"text", "csv", "latex"}))
-      ->capture_default_str()
-      ->type_name("F");
-  addFile(command, "--out", out, "Writes the tables to this file instead of the terminal");
-  command
-      .add_option("--figures", figures,
-                  "Draws the figures into this folder: error_strips, error_distribution, "
-                  "success_tolerance, success_seed_error, time_accuracy")
-      ->type_name("FOLDER");
-  command
-      .add_option("--failures", failures,
-                  "Draws each unsuccessful run into this folder, with the cause of failure; needs "
-                  "the dataset's images")
-      ->type_name("FOLDER");
-  command.add_option("--figure-format", figure_formats, "Formats of the figures: pdf, svg, png")
-      ->check(CLI::IsMember({"pdf", "svg", "png"}))
-      ->capture_default_str()
-      ->type_name("F");
-}
 
 TableFormat tableFormat(const TablesArguments& arguments) {
   if (arguments.format == "csv") return TableFormat::kCsv;
@@ -200,7 +186,7 @@ int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& be
 int makeTables(const TablesArguments& arguments) {
   const sessions::ResultsSet set =
       sessions::readResultsSet(paths(arguments.results), arguments.filter);
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  requireWritable({arguments.out});
   if (!arguments.against.empty()) return compareSets(arguments, set);
   if (set.runs.empty()) {
     note("no run meets all filters");
@@ -215,12 +201,11 @@ int makeTables(const TablesArguments& arguments) {
 }  // namespace
 
 void addTables(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
+  addCommand(
       app, exit_code, "tables",
       "Writes tables and figures of results: errors, success, time per step, distributions. With "
       "--against it compares two sets of results run by run; exit status 6: a run became worse",
       makeTables);
-  arguments->addTo(*command);
 }
 
 }  // namespace boresight::app

@@ -11,11 +11,16 @@ namespace {
 struct TrendArguments {
   std::vector<std::string> sessions;
   std::string csv, pdf;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "sessions", sessions, "Session files, in the order of time")->required();
+    addFile(command, "--csv", csv, "Writes the same as CSV, with sigmas");
+    addFile(command, "--pdf", pdf, "Writes plots, a page a station");
+  }
 };
 
 int trends(const TrendArguments& arguments) {
-  for (const std::string& file : {arguments.csv, arguments.pdf})
-    if (!file.empty()) sessions::requireWritable(file);
+  requireWritable({arguments.csv, arguments.pdf});
   const std::vector<std::filesystem::path> files(arguments.sessions.begin(),
                                                  arguments.sessions.end());
   std::vector<std::string> remarks;
@@ -32,15 +37,11 @@ int trends(const TrendArguments& arguments) {
 }  // namespace
 
 void addTrends(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
+  addCommand(
       app, exit_code, "trends",
       "Lists corrections, residuals and checks of stations over many sessions, one a sol, and "
       "flags runs that stand out",
       trends);
-  addFile(*command, "sessions", arguments->sessions, "Session files, in the order of time")
-      ->required();
-  addFile(*command, "--csv", arguments->csv, "Writes the same as CSV, with sigmas");
-  addFile(*command, "--pdf", arguments->pdf, "Writes plots, a page a station");
 }
 
 }  // namespace boresight::app

@@ -10,10 +10,26 @@ namespace boresight::app {
 namespace {
 
 struct VerifyArguments {
-  std::string file;
-  std::string folder, signers;
+  std::string file, folder, signers;
   bool no_run = false;
   bool full = false;
+
+  void addTo(CLI::App& command) {
+    addFile(command, "file", file, "validated_pose.json")->required();
+    addOption(command, "--folder", "FOLDER", folder,
+              "Look below this folder for files that are not where the document names them, "
+              "by their hashes")
+        ->check(CLI::ExistingDirectory);
+    addFile(
+        command, "--signers", signers,
+        "Allowed signers (ssh-keygen): those who decided must have signed the file with a key that "
+        "this lists for their names, in FILE.sig or FILE.*.sig");
+    CLI::Option* without_run =
+        command.add_flag("--no-run", no_run,
+                         "Skip the localization; pose, covariance and checks are then not proved");
+    command.add_flag("--full", full, "Repeat the convergence test, too; takes one run per seed")
+        ->excludes(without_run);
+  }
 };
 
 int verify(const VerifyArguments& arguments) {
@@ -34,30 +50,12 @@ int verify(const VerifyArguments& arguments) {
 }  // namespace
 
 void addVerify(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
+  addCommand(
       app, exit_code, "verify",
       "Verifies a validated_pose.json: checks its hashes, runs its localization again, and "
       "compares pose, covariance and checks. Lists as not proved who decided, when, and why a "
       "check was waived. Exit status: 0 all measured values agree, 6 they do not",
       verify);
-  addFile(*command, "file", arguments->file, "validated_pose.json")->required();
-  command
-      ->add_option("--folder", arguments->folder,
-                   "Look below this folder for files that are not where the document names them, "
-                   "by their hashes")
-      ->check(CLI::ExistingDirectory)
-      ->type_name("FOLDER");
-  addFile(
-      *command, "--signers", arguments->signers,
-      "Allowed signers (ssh-keygen): those who decided must have signed the file with a key that "
-      "this lists for their names, in FILE.sig or FILE.*.sig");
-  CLI::Option* no_run =
-      command->add_flag("--no-run", arguments->no_run,
-                        "Skip the localization; pose, covariance and checks are then not proved");
-  command
-      ->add_flag("--full", arguments->full,
-                 "Repeat the convergence test, too; takes one run per seed")
-      ->excludes(no_run);
 }
 
 }  // namespace boresight::app

@@ -26,6 +26,15 @@ struct ViewsArguments {
   OptionArguments options;
   int threads = 0;
   Kernels kernels = bestKernels();
+
+  void addTo(CLI::App& command) {
+    addFile(command, "--dataset", dataset, "dataset.json with cases that have rigs")->required();
+    addOption(command, "--rig", "ID", rigs, "Rig to localize; may be repeated (default: all)");
+    options.addTo(command);
+    addThreads(command, threads);
+    addKernels(command, kernels);
+    addFile(command, "--out", out, "Writes the results as JSON");
+  }
 };
 
 /// One rig, solved from the seed of its first case.
@@ -86,13 +95,6 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
   return run;
 }
 
-std::string errorText(const sessions::PoseError& error, const sessions::Case& dataset_case) {
-  return std::string("; error at the ") +
-         sessions::judgedPlace(dataset_case.camera_from_end_effector) + ": normal " +
-         fixedText(error.normal_mm, 3) + " mm, lateral " + fixedText(error.lateral_mm, 3) +
-         " mm, rotation " + fixedText(error.rotation_mrad, 3) + " mrad";
-}
-
 void printRig(const RigRun& run) {
   const ViewsResult& result = run.joint.result;
   print(run.rig + ": " + localizationStatusText(result.status) + " in " +
@@ -106,8 +108,11 @@ void printRig(const RigRun& run) {
           "): " + localizationStatusText(view.status) + ", " + std::to_string(view.inliers) +
           " of " + std::to_string(view.correspondences) + " matches agree, " +
           std::to_string(view.edges_used) + " edge points, edge support " +
-          fixedText(100.0 * view.support.share(), 1) + " %" +
-          (error ? errorText(*error, *run.cases[v]) : ""));
+          sessions::percentText(view.support.share(), 1) +
+          (error ? std::string("; error at the ") +
+                       sessions::judgedPlace(run.cases[v]->camera_from_end_effector) + ": " +
+                       errorText(*error)
+                 : ""));
   }
 }
 
@@ -146,7 +151,7 @@ ordered_json toJson(const RigRun& run) {
 int localizeRigs(const ViewsArguments& arguments) {
   const LocalizerOptions options = arguments.options.read();
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
-  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  requireWritable({arguments.out});
   for (const std::string& line : dataset.notes) note(line);
   const std::vector<std::string> ids = arguments.rigs.empty() ? rigIds(dataset) : arguments.rigs;
   if (ids.empty()) throw sessions::InputError(dataset.file, "cases", "none has a rig");
@@ -166,19 +171,10 @@ int localizeRigs(const ViewsArguments& arguments) {
 }  // namespace
 
 void addViews(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "views",
-                 "Solves for one pose from several images: cases of a dataset that share a rig "
-                 "(joined cameras, or one camera on an arm)",
-                 localizeRigs);
-  addFile(*command, "--dataset", arguments->dataset, "dataset.json with cases that have rigs")
-      ->required();
-  command->add_option("--rig", arguments->rigs, "Rig to localize; may be repeated (default: all)")
-      ->type_name("ID");
-  arguments->options.addTo(*command);
-  addThreads(*command, arguments->threads);
-  addKernels(*command, arguments->kernels);
-  addFile(*command, "--out", arguments->out, "Writes the results as JSON");
+  addCommand(app, exit_code, "views",
+             "Solves for one pose from several images: cases of a dataset that share a rig "
+             "(joined cameras, or one camera on an arm)",
+             localizeRigs);
 }
 
 }  // namespace boresight::app

@@ -29,8 +29,7 @@ std::string optionsNaming(const CLI::App& command, const std::filesystem::path& 
   for (const CLI::Option* option : command.get_options())
     for (const std::string& value : option->results())
       if (std::filesystem::equivalent(value, file, error)) add(option->get_name());
-  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
-    add(optionsNaming(*group, file));
+  for (const CLI::App* group : command.get_subcommands({})) add(optionsNaming(*group, file));
   return names;
 }
 
@@ -45,24 +44,19 @@ std::vector<std::string> choicesOf(const CLI::Option& option) {
   return choices;
 }
 
-/// The option of the command, or of one of its groups, with this name.
-const CLI::Option* findOption(const CLI::App& command, const std::string& name) {
-  return name.starts_with("-") ? command.get_option_no_throw(name) : nullptr;
-}
-
 void addOptionNames(const CLI::App& command, std::vector<std::string>& names) {
   for (const CLI::Option* option : command.get_options())
     if (!option->get_group().empty())
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* group : command.get_subcommands({}))
     if (group->get_name().empty()) addOptionNames(*group, names);
 }
 
-/// Every word that may follow, whatever its beginning.
+/// Every word that may follow, regardless of the letters typed so far.
 std::vector<std::string> candidates(const CLI::App& app, const std::vector<std::string>& words) {
   std::vector<std::string> found;
   if (words.size() <= 1 && (words.empty() || !words.back().starts_with("-"))) {
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command : app.get_subcommands({}))
       if (!command->get_group().empty()) found.push_back(command->get_name());
     return found;
   }
@@ -70,8 +64,8 @@ std::vector<std::string> candidates(const CLI::App& app, const std::vector<std::
       [&words](const CLI::App* command) { return command->get_name() == words.front(); });
   if (words.size() > 1 && named.empty()) return found;
   const CLI::App* command = words.size() > 1 ? named.front() : &app;
-  if (words.size() > 2)
-    if (const CLI::Option* option = findOption(*command, words[words.size() - 2]))
+  if (words.size() > 2 && words[words.size() - 2].starts_with("-"))
+    if (const CLI::Option* option = command->get_option_no_throw(words[words.size() - 2]))
       if (option->get_items_expected_max() > 0) return choicesOf(*option);
   if (words.back().starts_with("-")) addOptionNames(*command, found);
   return found;
@@ -126,7 +120,7 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
-/// The exit status, whatever happens; a failure is reported in one line.
+/// The exit status. Catches every exception and reports it in one line.
 int runGuarded(int argc, char** argv) {
   try {
     return run(argc, argv);

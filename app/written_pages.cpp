@@ -21,7 +21,7 @@ std::string optionRows(const CLI::App& command, std::set<std::string>& listed) {
     text += "| `" + name + formatter.make_option_opts(option) + "` | " +
             markdownText(option->get_description()) + " |\n";
   }
-  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* group : command.get_subcommands({}))
     if (group->get_name().empty()) text += optionRows(*group, listed);
   return text;
 }

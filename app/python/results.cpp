@@ -5,7 +5,6 @@
 #include "app/python/module.h"
 #include "sessions/annotation/solve_annotations.h"
 #include "sessions/checks/checks.h"
-#include "sessions/checks/pose_uncertainty.h"
 #include "sessions/decision/decision.h"
 #include "sessions/evaluation/results_file.h"
 #include "sessions/io/cameras/camera_file.h"
@@ -24,7 +23,7 @@ py::dict solvePnp(const Rows3& points_in_station_m, const Rows2& pixels, const P
   if (points_in_station_m.rows() != pixels.rows())
     throw py::value_error("as many pixels as points are needed");
   sessions::AnnotatedView view;
-  view.camera = sessions::readCamera(camera);
+  view.camera = sessions::readCameraFile(camera).camera;
   for (Eigen::Index i = 0; i < pixels.rows(); ++i) {
     sessions::PointPair pair;
     pair.id = "p" + std::to_string(i);
@@ -53,23 +52,18 @@ py::dict solvePnp(const Rows3& points_in_station_m, const Rows2& pixels, const P
 }
 
 py::list checkRun(const Run& run, const std::string& preset, int convergence_seeds) {
-  sessions::ReviewSubject subject;
-  subject.loaded = run.loaded;
-  const auto& source = run.loaded->source;
   if (!run.trace.converged()) throw py::value_error("the run did not converge: no pose to check");
   const sessions::CheckLimits limits = sessions::checkLimits(preset, {});
-  subject.requirement = source.requirement.value_or(sessions::findCheckPreset(preset)->requirement);
-  subject.camera_from_station = run.trace.camera_from_station;
-  subject.covariance = sessions::poseCovariance(source, run.loaded->scene.view(),
-                                                run.trace.camera_from_station,
-                                                run.trace.covariance);
-  subject.run = run.trace;
+  const sessions::ReviewSubject subject =
+      sessions::runSubject(run.loaded,
+                           run.loaded->source.requirement.value_or(
+                               sessions::findCheckPreset(preset)->requirement),
+                           run.trace);
   std::vector<sessions::Check> checks;
   {
     const py::gil_scoped_release release;
-    std::optional<sessions::ConvergenceResult> convergence;
-    if (convergence_seeds > 0) convergence = sessions::convergenceTest(subject, convergence_seeds);
-    checks = sessions::checkPose(subject, limits, convergence);
+    checks = sessions::checkPose(subject, limits,
+                                 sessions::convergenceTest(subject, convergence_seeds));
   }
   py::list list;
   for (const sessions::Check& check : checks)

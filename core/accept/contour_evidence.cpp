@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/edges/direction_distance.h"
 
 namespace boresight {
@@ -29,7 +30,7 @@ constexpr std::array<std::uint64_t, 256> kCountOf = [] {
     int interval = 0;
     for (const int up_to : kUpTo)
       if (distance > up_to) ++interval;
-    counts[static_cast<std::size_t>(distance)] = std::uint64_t{1} << (kCountBits * interval);
+    nth(counts, distance) = std::uint64_t{1} << (kCountBits * interval);
   }
   return counts;
 }();
@@ -39,8 +40,7 @@ Shares sharesAround(const EvidencePlace& place, const DirectedEdges& edges,
                     std::span<const std::uint8_t> distance, double window_px) {
   std::array<int, kSamples> offset{};
   for (int i = 0; i < kSamples; ++i)
-    offset[static_cast<std::size_t>(i)] =
-        static_cast<int>(std::floor(window_px * ((i + 0.5) / kSamples - 0.5)));
+    nth(offset, i) = static_cast<int>(std::floor(window_px * ((i + 0.5) / kSamples - 0.5)));
   std::uint64_t counts = 0;
   for (const int down : offset) {
     const int y = place.y + down;
@@ -72,8 +72,7 @@ double meanOf(double sum, std::int32_t count) { return count > 0 ? sum / count :
 PlaceEvidence evidenceOfPlace(const EvidencePlace& place, const DirectedEdges& edges,
                               std::span<const std::uint8_t> distance, double window_px) {
   const Shares around = sharesAround(place, edges, distance, window_px);
-  const std::uint64_t count =
-      kCountOf[distance[static_cast<std::size_t>(place.y * edges.width + place.x)]];
+  const std::uint64_t count = kCountOf[nth(distance, place.y * edges.width + place.x)];
   const auto observed = static_cast<std::size_t>(std::countr_zero(count) / kCountBits);
   PlaceEvidence evidence;
   for (std::size_t k = 0; k < kIntervals; ++k) {

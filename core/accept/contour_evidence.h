@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/nth.h"
 #include "core/edges/directed_edges.h"
 
 namespace boresight {
@@ -81,7 +82,7 @@ class ContourEvidenceMeter {
   }
   /// Adds a place; those beyond kMaxPlaces are left out.
   void add(const EvidencePlace& place) {
-    if (count_ < kMaxPlaces) places_[static_cast<std::size_t>(count_++)] = place;
+    if (count_ < kMaxPlaces) nth(places_, count_++) = place;
   }
   /// `size_px`: the object's longer side in the image. Places outside the image and on unknown
   /// pixels do not count.

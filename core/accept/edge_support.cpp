@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -14,28 +16,19 @@ constexpr std::int32_t kMaxPlaces = 3000;  ///< enough for a share to within 1 %
 /// search radius in use, and not a multiple of a power of two, which a raster may have.
 constexpr int kDisplacements[4][2] = {{11, 0}, {0, 11}, {-11, 0}, {0, -11}};
 
-/// A place of the render in the image and the search there.
-struct Place {
-  Eigen::Vector2d position_px;
-  Eigen::Vector2d normal;
-};
-
-Place placeOf(const EdgePixel& pixel, double scale, const int displacement[2]) {
-  Place place;
-  place.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
-  const Eigen::Vector2d line =
-      Eigen::Vector2d(pixel.x + displacement[0], pixel.y + displacement[1]) +
-      0.01 * pixel.offset * place.normal;
-  place.position_px = (line.array() + 0.5).matrix() * scale - Eigen::Vector2d::Constant(0.5);
-  return place;
+/// A pixel of the render displaced in one of the four directions; -1: in its place.
+EdgePixel displaced(EdgePixel pixel, int direction) {
+  if (direction < 0) return pixel;
+  pixel.x = static_cast<std::int16_t>(pixel.x + kDisplacements[direction][0]);
+  pixel.y = static_cast<std::int16_t>(pixel.y + kDisplacements[direction][1]);
+  return pixel;
 }
 
 void measureCoverage(const EdgeRender& render, int level, const ImageView& image,
                      const BitImage* ignore, EdgeSupport& support) {
   const EdgeSearch search(kSupportDerivativeSigma_px);
-  const std::int32_t stride = std::max(1, (render.pixel_count + kMaxPlaces - 1) / kMaxPlaces);
   int direction = 0;
-  for (const EdgePixel& pixel : render.eachPixel(stride)) {
+  for (const EdgePixel& pixel : render.eachPixel(render.strideFor(kMaxPlaces))) {
     countEdge(pixel, -1, level, search, image, ignore, support.rendered, support.covered);
     countEdge(pixel, direction, level, search, image, ignore, support.displaced,
               support.displaced_covered);
@@ -88,14 +81,13 @@ void measureExplanation(const EdgeRender& render, const BitImage& test_edges,
 void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
                const ImageView& image, const BitImage* ignore, std::int32_t& looked,
                std::int32_t& covered) {
-  constexpr int kInPlace[2] = {0, 0};
-  const double scale = static_cast<double>(1 << level);
-  const Place place = placeOf(pixel, scale, direction < 0 ? kInPlace : kDisplacements[direction]);
-  const int x = std::clamp(static_cast<int>(place.position_px.x() + 0.5), 0, image.width - 1);
-  const int y = std::clamp(static_cast<int>(place.position_px.y() + 0.5), 0, image.height - 1);
+  const double scale = levelScale(level);
+  const Eigen::Vector2d place_px = atFullResolution(displaced(pixel, direction).onLine_px(), level);
+  const int x = std::clamp(static_cast<int>(place_px.x() + 0.5), 0, image.width - 1);
+  const int y = std::clamp(static_cast<int>(place_px.y() + 0.5), 0, image.height - 1);
   if (ignore != nullptr && ignore->get(x, y)) return;
   ++looked;
-  const EdgePeak peak = search.find(image, ignore, place.position_px, place.normal,
+  const EdgePeak peak = search.find(image, ignore, place_px, pixel.normal(),
                                     kSupportRadius_px * scale, kSupportMinGradient);
   if (peak.gradient != 0.0 && std::abs(peak.offset_px) <= kSupportNear_px * scale) ++covered;
 }
@@ -104,7 +96,7 @@ EdgeSupport measureEdgeSupport(const EdgeRender& render, int level, const EdgeMa
                                const ImageView& image, const BitImage* ignore) {
   EdgeSupport support;
   measureCoverage(render, level, image, ignore, support);
-  measureExplanation(render, edges.level[static_cast<std::size_t>(level)], support);
+  measureExplanation(render, nth(edges.level, level), support);
   return support;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -37,14 +39,14 @@ bool takeProfile(const ImageView& image, const BitImage* ignore, const Eigen::Ve
       return false;
     if (ignore != nullptr && ignore->get(static_cast<int>(at.x()), static_cast<int>(at.y())))
       return false;
-    profile[static_cast<std::size_t>(i)] = sample(image, at);
+    nth(profile, i) = sample(image, at);
   }
   return true;
 }
 
 /// Width of the ramp around the steepest slope near the middle; none when the ramp is too low.
 std::optional<double> rampWidth_px(const Profile& profile) {
-  const auto at = [&profile](int i) { return profile[static_cast<std::size_t>(i)]; };
+  const auto at = [&profile](int i) { return nth(profile, i); };
   int steepest = kReach_px;
   double slope = 0.0;
   for (int i = kReach_px - kNear_px; i <= kReach_px + kNear_px; ++i) {
@@ -70,14 +72,14 @@ int EdgeWidth::widestDirection() const {
   for (int i = 0; i < kEdgeDirections; ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (places[at] < kLeastProfiles) continue;
-    if (widest < 0 || width_px[at] > width_px[static_cast<std::size_t>(widest)]) widest = i;
+    if (widest < 0 || width_px[at] > nth(width_px, widest)) widest = i;
   }
   return widest;
 }
 
 double EdgeWidth::widest_px() const {
   const int widest = widestDirection();
-  return widest < 0 ? 0.0 : width_px[static_cast<std::size_t>(widest)];
+  return widest < 0 ? 0.0 : nth(width_px, widest);
 }
 
 void EdgeWidthMeter::add(const Eigen::Vector2d& place_px, const Eigen::Vector2d& normal) {
@@ -89,7 +91,7 @@ void EdgeWidthMeter::add(const Eigen::Vector2d& place_px, const Eigen::Vector2d&
   const int direction =
       edgeDirectionOf(static_cast<std::int32_t>(way.x()), static_cast<std::int32_t>(way.y()));
   const int bin = std::min(kBins - 1, static_cast<int>(*width_px / kBin_px));
-  ++histograms_[static_cast<std::size_t>(direction)][static_cast<std::size_t>(bin)];
+  ++nth(nth(histograms_, direction), bin);
 }
 
 EdgeWidth EdgeWidthMeter::width() const {
@@ -109,14 +111,8 @@ EdgeWidth EdgeWidthMeter::width() const {
 EdgeWidth measureEdgeWidth(const EdgeRender& render, int level, const ImageView& image,
                            const BitImage* ignore) {
   EdgeWidthMeter meter(image, ignore);
-  const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5);
-  const double scale = static_cast<double>(1 << level);
-  const int stride = std::max(1, (render.pixel_count + kMostProfiles - 1) / kMostProfiles);
-  for (const EdgePixel& pixel : render.eachPixel(stride)) {
-    const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
-    const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
-    meter.add(scale * (place + half) - half, normal);
-  }
+  for (const EdgePixel& pixel : render.eachPixel(render.strideFor(kMostProfiles)))
+    meter.add(atFullResolution(pixel.onLine_px(), level), pixel.normal());
   return meter.width();
 }
 

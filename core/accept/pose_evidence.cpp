@@ -22,18 +22,22 @@ constexpr double kLeastExpected_nats = 0.15;
 constexpr double kLeastLogSupport = -2.5;
 constexpr double kMostLogSupport = 0.2;
 
-}  // namespace
-
-double PoseEvidence::strongest_nats() const {
+/// Mean of a measure over the views.
+double meanOf(const std::array<ContourEvidence, kEvidenceViews>& contours,
+              double (ContourEvidence::*measure)() const) {
   double sum = 0.0;
-  for (const ContourEvidence& view : contours) sum += view.strongest_nats();
+  for (const ContourEvidence& view : contours) sum += (view.*measure)();
   return sum / kEvidenceViews;
 }
 
+}  // namespace
+
+double PoseEvidence::strongest_nats() const {
+  return meanOf(contours, &ContourEvidence::strongest_nats);
+}
+
 double PoseEvidence::weakest_nats() const {
-  double sum = 0.0;
-  for (const ContourEvidence& view : contours) sum += view.weakest_nats();
-  return sum / kEvidenceViews;
+  return meanOf(contours, &ContourEvidence::weakest_nats);
 }
 
 double PoseEvidence::score() const {

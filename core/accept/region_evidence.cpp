@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 
 namespace boresight {
 namespace {
@@ -23,20 +24,17 @@ constexpr double kMost_nats = 1.2;
 
 /// Bounding box and centre of the outline's places, px of the render.
 struct OutlineBox {
-  int x_min = 32767, x_max = -1, y_min = 32767, y_max = -1;
+  Eigen::AlignedBox2i bounds;
   std::int64_t sum_x = 0, sum_y = 0;
   std::int32_t places = 0;
 
   void extend(const EdgePixel& pixel) {
-    x_min = std::min<int>(x_min, pixel.x);
-    x_max = std::max<int>(x_max, pixel.x);
-    y_min = std::min<int>(y_min, pixel.y);
-    y_max = std::max<int>(y_max, pixel.y);
+    bounds.extend(Eigen::Vector2i(pixel.x, pixel.y));
     sum_x += pixel.x;
     sum_y += pixel.y;
     ++places;
   }
-  int longerSide() const { return std::max(x_max - x_min, y_max - y_min) + 1; }
+  int longerSide() const { return bounds.sizes().maxCoeff() + 1; }
 };
 
 /// Sector of a direction among twelve of 30 deg: sectors 0 to 2 have x and y positive.
@@ -84,7 +82,7 @@ RegionEvidence RegionEvidenceMeter::measure(const EdgeRender& render, int level,
   fillHistograms();
   fillLogOdds();
   for (int i = 0; i < count_; ++i) {
-    const double nats = lineNats(lines_[static_cast<std::size_t>(i)]);
+    const double nats = lineNats(nth(lines_, i));
     evidence.nats += nats;
     if (nats > 0.0) ++evidence.separated;
   }
@@ -101,7 +99,7 @@ void RegionEvidenceMeter::takeLines(const EdgeRender& render, int level, const I
   for (const EdgePixel& pixel : render.eachPixel())
     if (isBorder(pixel)) box.extend(pixel);
   if (box.places == 0) return;
-  const double scale = static_cast<double>(1 << level);
+  const double scale = levelScale(level);
   const double reach_px =
       std::clamp(kReach * scale * box.longerSide(), kLeastReach * scale, kMostReach * scale);
   const Eigen::Vector2d centre =
@@ -110,18 +108,15 @@ void RegionEvidenceMeter::takeLines(const EdgeRender& render, int level, const I
   std::int32_t index = 0;
   for (const EdgePixel& pixel : render.eachPixel()) {
     if (!isBorder(pixel) || index++ % stride != 0 || count_ == kMostLines) continue;
-    const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
-    const Eigen::Vector2d on_line =
-        Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
-    const Eigen::Vector2d place_px =
-        (on_line.array() + 0.5).matrix() * scale - Eigen::Vector2d::Constant(0.5);
-    Line& line = lines_[static_cast<std::size_t>(count_)];
+    const Eigen::Vector2d normal = pixel.normal();
+    const Eigen::Vector2d place_px = atFullResolution(pixel.onLine_px(), level);
+    Line& line = nth(lines_, count_);
     bool complete = true;
     for (int sample = 0; sample < kSamples && complete; ++sample) {
       const double along_px = (sample - kHalf + 0.5) * reach_px / kHalf;
       std::int32_t gray_256 = 0;
       complete = sampleAt(image, ignore, place_px + along_px * normal, gray_256);
-      line.bin[static_cast<std::size_t>(sample)] = static_cast<std::uint8_t>(gray_256 >> 11);
+      nth(line.bin, sample) = static_cast<std::uint8_t>(gray_256 >> 11);
     }
     if (!complete) continue;
     line.sector = static_cast<std::uint8_t>(sectorOf(pixel.x - centre.x(), pixel.y - centre.y()));
@@ -134,10 +129,10 @@ void RegionEvidenceMeter::fillHistograms() {
   inside_ = {};
   outside_ = {};
   for (int i = 0; i < count_; ++i) {
-    const Line& line = lines_[static_cast<std::size_t>(i)];
+    const Line& line = nth(lines_, i);
     for (int sample = 0; sample < kHalf - 1; ++sample) {
       const auto mirrored = static_cast<std::size_t>(kSamples - 1 - sample);
-      ++inside_[line.sector][line.bin[static_cast<std::size_t>(sample)]];
+      ++inside_[line.sector][nth(line.bin, sample)];
       ++outside_[line.sector][line.bin[mirrored]];
     }
   }
@@ -148,11 +143,10 @@ void RegionEvidenceMeter::fillLogOdds() {
   const auto sumAt = [](const std::array<Histogram, kSectors>& of, int sector, int bin) {
     std::int64_t sum = 0;
     for (int turn = kSectors - 1; turn <= kSectors + 1; ++turn) {
-      const Histogram& histogram = of[static_cast<std::size_t>((sector + turn) % kSectors)];
+      const Histogram& histogram = nth(of, (sector + turn) % kSectors);
       for (int next = -1; next <= 1; ++next)
         if (bin + next >= 0 && bin + next < kBins)
-          sum +=
-              (next == 0 ? 2 : 1) * std::int64_t{histogram[static_cast<std::size_t>(bin + next)]};
+          sum += (next == 0 ? 2 : 1) * std::int64_t{nth(histogram, bin + next)};
     }
     return sum;
   };
@@ -174,7 +168,7 @@ void RegionEvidenceMeter::fillLogOdds() {
       const double f = shareOf(inside[bin], all_inside);
       const double g = shareOf(outside[bin], all_outside);
       const double q = 0.5 * (1.0 - kTrustedRegion) + kTrustedRegion * f / (f + g);
-      log_odds_[static_cast<std::size_t>(sector)][bin] = log(q / (1.0 - q));
+      nth(log_odds_, sector)[bin] = log(q / (1.0 - q));
     }
   }
 }

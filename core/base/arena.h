@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -19,10 +20,11 @@ class Arena {
   /// Allocates from the block, which must outlive the allocations.
   explicit Arena(std::span<std::byte> block) : block_(block) {}
 
-  /// `count` value-initialized objects; empty when the block is exhausted (then `exhausted()`), or
-  /// when the arena only counts.
-  template <class T>
-  std::span<T> allocate(std::size_t count) {
+  /// That number of value-initialized objects; empty when the block is exhausted (then
+  /// `exhausted()`), or when the arena only counts.
+  template <class T, std::integral Count>
+  std::span<T> allocate(Count wanted) {
+    const auto count = static_cast<std::size_t>(wanted);
     static_assert(std::is_trivially_destructible_v<T>);
     static_assert(alignof(T) <= kAlignment);
     const std::size_t bytes = (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;

@@ -28,9 +28,6 @@ class ByteWriter {
   void u64(std::uint64_t value) { put(value, 8); }
   void f32(float value) { u32(std::bit_cast<std::uint32_t>(value)); }
   void f64(double value) { u64(std::bit_cast<std::uint64_t>(value)); }
-  void f64s(std::span<const double> values) {
-    for (const double value : values) f64(value);
-  }
   void bytes(std::span<const std::uint8_t> values) {
     for (const std::uint8_t value : values) u8(value);
   }

@@ -17,6 +17,15 @@ class FixedList {
   void add(const Item& item) {
     if (count_ < kCapacity) items_[static_cast<std::size_t>(count_++)] = item;
   }
+  /// Inserts an item before place `index`; the last item of a full list is dropped.
+  void insert(int index, const Item& item) {
+    if (index >= kCapacity) return;
+    count_ = count_ < kCapacity ? count_ + 1 : kCapacity;
+    for (int i = count_ - 1; i > index; --i) (*this)[i] = (*this)[i - 1];
+    (*this)[index] = item;
+  }
+  /// Removes all but the first `count` items.
+  void keepFirst(int count) { count_ = count; }
   /// Number of items.
   int size() const { return count_; }
   /// The items in the order of add().

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/kernels.h"
 
+#include "core/base/enum_name.h"
+
 namespace boresight {
 
 const char* kernelsName(Kernels kernels) {
-  switch (kernels) {
-    case Kernels::kPortable:
-      return "portable";
-    case Kernels::kSse2:
-      return "sse2";
-  }
-  return "unknown";
+  return enumName<Kernels::kSse2>(kernels, {"portable", "sse2"});
 }
 
 bool kernelsAvailable(Kernels kernels) {

@@ -9,6 +9,8 @@
 #include <limits>
 #include <span>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -98,7 +100,7 @@ double atanOfFraction(double x) {
   const double knot = 0.125 * eighths;
   const double t = (x - knot) / (1.0 + x * knot);
   const double square = t * t;
-  const Value& value = kAtanOfEighths[static_cast<std::size_t>(eighths)];
+  const Value& value = nth(kAtanOfEighths, eighths);
   return value.high + (t + (t * square * polynomial(kTerms, square) + value.low));
 }
 

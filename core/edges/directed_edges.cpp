@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -40,13 +42,12 @@ void knownColumns(const SmallImage& image, int y, Row<std::uint8_t>& known) {
   const std::uint8_t* row[3];
   for (int i = 0; i < 3; ++i)
     row[i] = image.seen.data() + placeOf(0, y + (i - 1) * kBorder, image.width);
-  for (int x = 0; x < image.width; ++x)
-    known[static_cast<std::size_t>(x)] = row[0][x] & row[1][x] & row[2][x];
+  for (int x = 0; x < image.width; ++x) nth(known, x) = row[0][x] & row[1][x] & row[2][x];
 }
 
 }  // namespace
 
-int edgeDirectionOf(std::int32_t x, std::int32_t y) {
+std::uint8_t edgeDirectionOf(std::int32_t x, std::int32_t y) {
   // Boundaries at 11.25 deg and every 22.5 deg from there; tangents in units of 1/1024.
   constexpr std::int64_t kTan11 = 204, kTan33 = 684, kTan56 = 1533, kTan78 = 5148;
   const std::int64_t a = std::abs(static_cast<std::int64_t>(x));
@@ -61,7 +62,7 @@ int edgeDirectionOf(std::int32_t x, std::int32_t y) {
   else if (b <= kTan78 * a)
     sector = 3;
   const bool falls = (x < 0) != (y < 0);
-  return falls && sector > 0 ? kEdgeDirections - sector : sector;
+  return static_cast<std::uint8_t>(falls && sector > 0 ? kEdgeDirections - sector : sector);
 }
 
 int directionsApart(int first, int second) {
@@ -83,7 +84,7 @@ SmallImage SmallImage::channel(int index) const {
 }
 
 void DirectedEdgeDetector::create(int max_width, Arena& arena) {
-  magnitude_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(kHeldRows * max_width));
+  magnitude_ = arena.allocate<std::uint16_t>(kHeldRows * max_width);
 }
 
 void DirectedEdgeDetector::begin(int width, int height, int channels, DirectedEdges& edges) {
@@ -140,7 +141,7 @@ void DirectedEdgeDetector::takeChannel(const SmallImage& image, int y, DirectedE
         std::sqrt(static_cast<double>(dx) * dx + static_cast<double>(dy) * dy));
     if (direction != DirectedEdges::kNone && magnitude <= magnitude_of_row[x]) continue;
     magnitude_of_row[x] = magnitude;
-    direction = static_cast<std::uint8_t>(edgeDirectionOf(dx, dy));
+    direction = edgeDirectionOf(dx, dy);
   }
 }
 
@@ -148,7 +149,7 @@ void DirectedEdgeDetector::addToColumns(int y, bool add) {
   const std::uint16_t* const row = magnitudes(y);
   for (int x = 0; x < width_; ++x) {
     const std::uint32_t value = row[x];
-    column_sum_[static_cast<std::size_t>(x)] += add ? value : 0u - value;
+    nth(column_sum_, x) += add ? value : 0u - value;
   }
 }
 
@@ -161,11 +162,10 @@ void DirectedEdgeDetector::suppressRow(int y, const SmallImage& image, DirectedE
   const int height = edges.height;
   const int rows = std::min(height - 1, y + kMeanReach) - std::max(0, y - kMeanReach) + 1;
   std::uint64_t sum = 0;
-  for (int x = 0; x < std::min(kMeanReach, width); ++x)
-    sum += column_sum_[static_cast<std::size_t>(x)];
+  for (int x = 0; x < std::min(kMeanReach, width); ++x) sum += nth(column_sum_, x);
   for (int x = 0; x < width; ++x) {
-    if (x + kMeanReach < width) sum += column_sum_[static_cast<std::size_t>(x + kMeanReach)];
-    if (x > kMeanReach) sum -= column_sum_[static_cast<std::size_t>(x - kMeanReach - 1)];
+    if (x + kMeanReach < width) sum += nth(column_sum_, x + kMeanReach);
+    if (x > kMeanReach) sum -= nth(column_sum_, x - kMeanReach - 1);
     const std::size_t at = placeOf(x, y, width);
     std::uint8_t& direction = edges.direction[at];
     if (direction != DirectedEdges::kNone) {

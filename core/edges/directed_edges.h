@@ -12,7 +12,7 @@ namespace boresight {
 inline constexpr int kEdgeDirections = 8;  ///< of normals without sign, 22.5 deg each
 
 /// The direction of a normal of any length: 0 along x, 4 along y, the same for both signs.
-int edgeDirectionOf(std::int32_t x, std::int32_t y);
+std::uint8_t edgeDirectionOf(std::int32_t x, std::int32_t y);
 /// Steps between two directions, 0 ... 4.
 int directionsApart(int first, int second);
 
@@ -66,10 +66,7 @@ class DirectedEdgeDetector {
   /// Rows of gradients that are held: those of the mean and the one before.
   static constexpr int kHeldRows = 2 * kMeanReach + 2;
 
-  std::uint16_t* magnitudes(int y) { return magnitude_.data() + y % kHeldRows * width_; }
-  const std::uint16_t* magnitudes(int y) const {
-    return magnitude_.data() + y % kHeldRows * width_;
-  }
+  std::uint16_t* magnitudes(int y) const { return magnitude_.data() + y % kHeldRows * width_; }
   void takeRow(const SmallImage& image, int y, DirectedEdges& edges);
   void takeChannel(const SmallImage& image, int y, DirectedEdges& edges);
   void addToColumns(int y, bool add);

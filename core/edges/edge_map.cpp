@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/nth.h"
 #include "core/edges/bit_rows.h"
 
 namespace boresight {
@@ -43,8 +44,7 @@ Status EdgeDetector::begin(const ImageView& image, const BitImage* ignore,
   int width = image.width;
   int height = image.height;
   for (int level = 0; level < kPyramidLevels; ++level) {
-    output.level[static_cast<std::size_t>(level)] =
-        BitImage::create(levels.hold(level) ? kept : scratch, width, height);
+    nth(output.level, level) = BitImage::create(levels.hold(level) ? kept : scratch, width, height);
     width = (width + 1) / 2;
     height = (height + 1) / 2;
   }
@@ -72,8 +72,7 @@ void EdgeDetector::allocateScratch(const ImageView& image, Arena& arena) {
   if (options_.thresholds == CannyThresholds::kQuantile) histogram_.begin(arena);
   hysteresis_.begin(image.width, image.height, arena);
   candidates_ = BitImage::create(arena, image.width, image.height);
-  near_ignored_ =
-      arena.allocate<std::uint64_t>(static_cast<std::size_t>(BitImage::wordsPerRow(image.width)));
+  near_ignored_ = arena.allocate<std::uint64_t>(BitImage::wordsPerRow(image.width));
 }
 
 bool EdgeDetector::step() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/base/nth.h"
 #include "core/edges/border.h"
 
 namespace boresight {
@@ -19,7 +20,7 @@ inline std::uint8_t roundToGray(float value) {
 GrayTable identityTable() {
   GrayTable table;
   for (int level = 0; level < kGrayLevels; ++level)
-    table[static_cast<std::size_t>(level)] = static_cast<std::uint8_t>(level);
+    nth(table, level) = static_cast<std::uint8_t>(level);
   return table;
 }
 
@@ -27,6 +28,15 @@ std::int32_t total(const GrayHistogram& histogram) {
   std::int32_t sum = 0;
   for (const std::int32_t count : histogram) sum += count;
   return sum;
+}
+
+/// Fills a table from a level on: scaled counts up to each level.
+void fillTable(const GrayHistogram& histogram, std::size_t first, float scale, GrayTable& table) {
+  std::int32_t sum = 0;
+  for (std::size_t level = first; level < table.size(); ++level) {
+    sum += histogram[level];
+    table[level] = roundToGray(static_cast<float>(sum) * scale);
+  }
 }
 
 /// The excess over `limit` per level is distributed evenly; the remainder goes to every n-th level.
@@ -42,7 +52,7 @@ void clip(GrayHistogram& histogram, std::int32_t limit) {
   if (residual == 0) return;
   const std::int32_t stride = std::max(kGrayLevels / residual, 1);
   for (std::int32_t level = 0; level < kGrayLevels && residual > 0; level += stride, --residual)
-    ++histogram[static_cast<std::size_t>(level)];
+    ++nth(histogram, level);
 }
 
 /// Floor and fraction of the position, in tiles, between the centres of neighbouring tiles.
@@ -97,12 +107,7 @@ GrayTable equalizeLut(const GrayHistogram& histogram) {
     table.fill(static_cast<std::uint8_t>(level));
     return table;
   }
-  const float scale = 255.0F / static_cast<float>(all - histogram[level]);
-  std::int32_t sum = 0;
-  for (++level; level < table.size(); ++level) {
-    sum += histogram[level];
-    table[level] = roundToGray(static_cast<float>(sum) * scale);
-  }
+  fillTable(histogram, level + 1, 255.0F / static_cast<float>(all - histogram[level]), table);
   return table;
 }
 
@@ -112,13 +117,8 @@ GrayTable claheLut(const GrayHistogram& histogram) {
   GrayHistogram clipped = histogram;
   const double limit = Equalizer::kClipLimit * all / kGrayLevels;
   clip(clipped, std::max(static_cast<std::int32_t>(limit), 1));
-  const float scale = 255.0F / static_cast<float>(all);
   GrayTable table{};
-  std::int32_t sum = 0;
-  for (std::size_t level = 0; level < table.size(); ++level) {
-    sum += clipped[level];
-    table[level] = roundToGray(static_cast<float>(sum) * scale);
-  }
+  fillTable(clipped, 0, 255.0F / static_cast<float>(all), table);
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/edges/border.h"
 
 namespace boresight {
@@ -40,7 +41,7 @@ void sumBlock(const GaussianKernel& kernel, const std::uint8_t* const* above,
     const std::uint8_t* b = below[tap] + x;
     const std::uint8_t* c = above[tap + 1] + x;
     const std::uint8_t* d = below[tap + 1] + x;
-    const std::uint16_t w0 = kernel.weight[static_cast<std::size_t>(tap)];
+    const std::uint16_t w0 = nth(kernel.weight, tap);
     const std::uint16_t w1 = kernel.weight[static_cast<std::size_t>(tap) + 1];
     for (int i = 0; i < kRowBlock; ++i)
       sum[i] = static_cast<std::uint16_t>(sum[i] + w0 * (a[i] + b[i]) + w1 * (c[i] + d[i]));
@@ -65,7 +66,7 @@ constexpr int kUsualRadius = 5;
   for (int k = 0; k <= kUsualRadius; ++k) {
     a[k] = above[k] + x;
     b[k] = below[k] + x;
-    weight[k] = kernel.weight[static_cast<std::size_t>(k)];
+    weight[k] = nth(kernel.weight, k);
   }
   for (int i = 0; i < kRowBlock; ++i) {
     auto sum = static_cast<std::uint16_t>(weight[0] * a[0][i]);
@@ -80,7 +81,7 @@ constexpr int kUsualRadius = 5;
 [[gnu::noinline]] void sumAlongUsualRow(const GaussianKernel& kernel, const std::uint16_t* row,
                                         std::uint16_t* __restrict sum) {
   std::uint16_t weight[kUsualRadius + 1];
-  for (int k = 0; k <= kUsualRadius; ++k) weight[k] = kernel.weight[static_cast<std::size_t>(k)];
+  for (int k = 0; k <= kUsualRadius; ++k) weight[k] = nth(kernel.weight, k);
   for (int i = 0; i < kRowBlock; ++i) {
     auto at = static_cast<std::uint16_t>(weight[0] * row[i]);
     for (int k = 1; k <= kUsualRadius; ++k)
@@ -105,7 +106,7 @@ void sumAlongRow(const GaussianKernel& kernel, const std::uint16_t* row,
     const std::uint16_t* b = row + tap;
     const std::uint16_t* c = a - 1;
     const std::uint16_t* d = b + 1;
-    const std::uint16_t w0 = kernel.weight[static_cast<std::size_t>(tap)];
+    const std::uint16_t w0 = nth(kernel.weight, tap);
     const std::uint16_t w1 = kernel.weight[static_cast<std::size_t>(tap) + 1];
     for (int i = 0; i < kRowBlock; ++i)
       sum[i] = static_cast<std::uint16_t>(sum[i] + w0 * (a[i] + b[i]) + w1 * (c[i] + d[i]));
@@ -131,18 +132,17 @@ GaussianKernel gaussianKernel(double sigma_px) {
   std::array<double, kMaxGaussianRadius + 1> value{};
   double sum = 0.0;
   for (int i = kernel.radius; i > 0; --i) {
-    value[static_cast<std::size_t>(i)] =
-        exp(-0.5 * static_cast<double>(i * i) / (sigma_px * sigma_px));
-    sum += value[static_cast<std::size_t>(i)];
+    nth(value, i) = exp(-0.5 * static_cast<double>(i * i) / (sigma_px * sigma_px));
+    sum += nth(value, i);
   }
   sum = 2.0 * sum + 1.0;
   double error = 0.0;
   int outside = 0;
   for (int i = kernel.radius; i > 0; --i) {
-    const double wanted = value[static_cast<std::size_t>(i)] / sum * 256.0 + error;
+    const double wanted = nth(value, i) / sum * 256.0 + error;
     const int weight = roundHalfEven(std::max(wanted, 0.0));
     error = wanted - weight;
-    kernel.weight[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(weight);
+    nth(kernel.weight, i) = static_cast<std::uint16_t>(weight);
     outside += weight;
   }
   kernel.weight[0] = static_cast<std::uint16_t>(256 - 2 * outside);
@@ -187,8 +187,8 @@ void SmoothedRows::sumColumns(int y) {
   std::array<const std::uint8_t*, kMaxGaussianRadius + 2> below{};
   for (int k = 0; k <= kernel_.radius + 1; ++k) {
     const int distance = std::min(k, kernel_.radius);
-    above[static_cast<std::size_t>(k)] = slot(reflect101(y - distance, height_));
-    below[static_cast<std::size_t>(k)] = slot(reflect101(y + distance, height_));
+    nth(above, k) = slot(reflect101(y - distance, height_));
+    nth(below, k) = slot(reflect101(y + distance, height_));
   }
   const auto sum = kernel_.radius == kUsualRadius ? sumUsualBlock : sumBlock;
   for (int x = 0; x < width_; x += kRowBlock)

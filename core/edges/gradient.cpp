@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/edges/border.h"
 
 namespace boresight {
@@ -79,8 +80,7 @@ void GradientRows::advance(const Equalizer& source, SmoothedRows& smoothed) {
   }
   std::array<const std::uint8_t*, kAperture_px> rows{};
   for (int k = 0; k < kAperture_px; ++k)
-    rows[static_cast<std::size_t>(k)] =
-        smoothedRow(std::clamp(y + k - kHalf, 0, height_ - 1)) - kHalf;
+    nth(rows, k) = smoothedRow(std::clamp(y + k - kHalf, 0, height_ - 1)) - kHalf;
   std::int16_t* dx = dx_.data() + columns_ * (y % kRing);
   std::int16_t* dy = dy_.data() + columns_ * (y % kRing);
   std::int32_t* magnitude = magnitude_.data() + (columns_ + 2 * kMargin) * (y % kRing) + kMargin;
@@ -95,7 +95,7 @@ void GradientRows::advance(const Equalizer& source, SmoothedRows& smoothed) {
 void GradientHistogram::begin(Arena& arena) {
   *this = GradientHistogram();
   bins_ = ceilRoot(2 * kMaxDerivative * kMaxDerivative) + 1;
-  counts_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(bins_ * kLanes));
+  counts_ = arena.allocate<std::int32_t>(bins_ * kLanes);
 }
 
 void GradientHistogram::addRow(const std::int32_t* magnitude, const std::uint64_t* ignored,
@@ -124,8 +124,7 @@ std::int32_t GradientHistogram::quantile(double share) const {
   const double wanted = share * static_cast<double>(all);
   std::int64_t sum = 0;
   for (std::ptrdiff_t bin = 0; bin + 1 < bins_ && all > 0; ++bin) {
-    for (int lane = 0; lane < kLanes; ++lane)
-      sum += counts_[static_cast<std::size_t>(bins_ * lane + bin)];
+    for (int lane = 0; lane < kLanes; ++lane) sum += nth(counts_, bins_ * lane + bin);
     if (static_cast<double>(sum) >= wanted) return static_cast<std::int32_t>(bin);
   }
   return static_cast<std::int32_t>(bins_ - 1);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -36,8 +38,8 @@ void Hysteresis::begin(int width, int height, Arena& arena) {
   words_per_row_ = BitImage::wordsPerRow(width);
   height_ = height;
   open_rows_ = height;
-  first_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(height));
-  last_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(height));
+  first_ = arena.allocate<std::int32_t>(height);
+  last_ = arena.allocate<std::int32_t>(height);
   for (std::int32_t& word : last_) word = words_per_row_ - 1;
 }
 
@@ -55,8 +57,8 @@ bool Hysteresis::step(std::int32_t word_budget, const BitImage& candidates, BitI
 
 void Hysteresis::touch(int y, int first_word, int last_word) {
   if (y < 0 || y >= height_) return;
-  std::int32_t& first = first_[static_cast<std::size_t>(y)];
-  std::int32_t& last = last_[static_cast<std::size_t>(y)];
+  std::int32_t& first = nth(first_, y);
+  std::int32_t& last = nth(last_, y);
   if (first > last) {
     ++open_rows_;
     first = words_per_row_;
@@ -69,11 +71,11 @@ void Hysteresis::touch(int y, int first_word, int last_word) {
 /// Brings the open words of row y, and the runs that leave them, to completion; returns the number
 /// of words visited.
 std::int32_t Hysteresis::floodRow(int y, const BitImage& candidates, BitImage& edges) {
-  const int first = first_[static_cast<std::size_t>(y)];
-  const int last = last_[static_cast<std::size_t>(y)];
+  const int first = nth(first_, y);
+  const int last = nth(last_, y);
   if (first > last) return 0;
-  first_[static_cast<std::size_t>(y)] = words_per_row_;
-  last_[static_cast<std::size_t>(y)] = -1;
+  nth(first_, y) = words_per_row_;
+  nth(last_, y) = -1;
   --open_rows_;
   const std::uint64_t* open = candidates.row(y);
   const std::uint64_t* above = y > 0 ? edges.row(y - 1) : nullptr;

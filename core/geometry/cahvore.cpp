@@ -11,7 +11,6 @@
 namespace boresight {
 namespace {
 
-constexpr int kMostPupilRounds = 100;
 /// No ray with z > 0 is farther from an optical axis within 60 deg of z.
 constexpr double kWidestAngle_rad = 150.0 * kDegree_rad;
 /// Below this angle the first terms of the series in theta are exact to rounding.
@@ -101,16 +100,9 @@ bool solveAngle(const Camera& camera, const Split& split, double& theta) {
   double high = limit;
   const double start = theta < limit ? theta : limit;
   if (!bracket(pupil, start, limit, low, high)) return false;
-  theta = start;
-  for (int round = 0; round < kMostPupilRounds; ++round) {
-    const double excess = pupil.value(theta);
-    if (excess == 0.0) break;
-    (excess > 0.0 ? high : low) = theta;
-    const double newton = theta - excess / pupil.slope(theta);
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (next == theta || next <= low || next >= high) break;
-    theta = next;
-  }
+  theta = rootBetween(
+      low, high, start, [&](double at) { return pupil.value(at); },
+      [&](double at) { return pupil.slope(at); });
   const double distance2 = split.along * split.along + split.across_length * split.across_length;
   const double slope = pupil.slope(theta);
   return slope > 0.0 && 4.0 * slope * slope >= distance2;
@@ -139,11 +131,15 @@ bool isAhead(const Eigen::Vector3d& point) {
   return point.z() > 0.0 && point.head<2>().squaredNorm() <= limit * limit;
 }
 
-bool onImagePlane(const Camera& camera, const Eigen::Vector3d& distorted, Eigen::Vector2d& q) {
+/// Pixel of a distorted direction; false outside the valid field.
+bool pixelOf(const Camera& camera, const Eigen::Vector3d& distorted, Eigen::Vector2d& pixel) {
   if (!(distorted.z() > 0.0)) return false;
-  q = distorted.head<2>() / distorted.z();
+  const Eigen::Vector2d q = distorted.head<2>() / distorted.z();
   const double limit = camera.model == CameraModel::kCahv ? camera.valid_radius : kLargestRadius;
-  return q.squaredNorm() <= limit * limit;
+  if (!(q.squaredNorm() <= limit * limit)) return false;
+  pixel = {camera.fx * q.x() + camera.cx,
+           camera.cahv.skew_px * q.x() + camera.fy * q.y() + camera.cy};
+  return true;
 }
 
 using RowVector = Eigen::Matrix<double, 1, 3>;
@@ -199,22 +195,14 @@ Eigen::Matrix3d pupilJacobian(const Camera& camera, const Split& split, double t
          (mu_by_chi * split.across) * chi_by_point;
 }
 
-/// x with x (1 + r0 + r1 x^2 + r2 x^4) = radius, up to `limit`: Newton between bounds.
+/// x with x (1 + r0 + r1 x^2 + r2 x^4) = radius, up to `limit`.
 bool solveRadius(const Eigen::Vector3d& r, double radius, double limit, double& x) {
   const auto distorted = [&r](double at) { return at * (1.0 + evenTerms(r, at * at)); };
   if (!(radius <= distorted(limit))) return false;
-  double low = 0.0;
-  double high = limit;
-  x = radius < high ? radius : high;
-  for (int round = 0; round < kMostPupilRounds; ++round) {
-    const double excess = distorted(x) - radius;
-    if (excess == 0.0) break;
-    (excess > 0.0 ? high : low) = x;
-    const double newton = x - excess / radialSlope(r, x);
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (next == x || next <= low || next >= high) break;
-    x = next;
-  }
+  x = rootBetween(
+      0.0, limit, radius < limit ? radius : limit,
+      [&](double at) { return distorted(at) - radius; },
+      [&r](double at) { return radialSlope(r, at); });
   return true;
 }
 
@@ -241,10 +229,8 @@ void measurePupil(Camera& camera) {
   double widest = 0.0;
   for (const double x : {-kMargin_px, camera.width - 1 + kMargin_px}) {
     for (const double y : {-kMargin_px, camera.height - 1 + kMargin_px}) {
-      const double q_x = (x - camera.cx) / camera.fx;
-      const Eigen::Vector2d q(q_x, (y - camera.cy - lens.skew_px * q_x) / camera.fy);
       Ray ray;
-      if (!undistortCahv(camera, q, ray)) {
+      if (!unprojectCahv(camera, {x, y}, ray)) {
         widest = camera.valid_radius;
         continue;
       }
@@ -281,19 +267,19 @@ double prepareCahvLens(Camera& camera) {
   return camera.valid_radius;
 }
 
-bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q) {
+bool projectCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& pixel) {
   if (!isAhead(point)) return false;
-  if (camera.model == CameraModel::kCahv) return onImagePlane(camera, point, q);
+  if (camera.model == CameraModel::kCahv) return pixelOf(camera, point, pixel);
   const Split split(camera, point);
   Eigen::Vector3d distorted;
   if (camera.model == CameraModel::kCahvor)
-    return distortRadially(camera, split, point, distorted) && onImagePlane(camera, distorted, q);
+    return distortRadially(camera, split, point, distorted) && pixelOf(camera, distorted, pixel);
   double theta = 0.0;
   return solveAngle(camera, split, theta) &&
-         onImagePlane(camera, distortedAt(camera, split, theta), q);
+         pixelOf(camera, distortedAt(camera, split, theta), pixel);
 }
 
-bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q,
+bool projectCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& pixel,
                  Eigen::Matrix<double, 2, 3>& jacobian) {
   if (!isAhead(point)) return false;
   const Split split(camera, point);
@@ -308,29 +294,34 @@ bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vect
     distorted = distortedAt(camera, split, theta);
     by_point = pupilJacobian(camera, split, theta);
   }
-  if (!onImagePlane(camera, distorted, q)) return false;
+  if (!pixelOf(camera, distorted, pixel)) return false;
+  const Eigen::Vector2d q = distorted.head<2>() / distorted.z();
   const double inverse_z = 1.0 / distorted.z();
-  for (int row = 0; row < 2; ++row)
-    for (int column = 0; column < 3; ++column)
-      jacobian(row, column) = (by_point(row, column) - q[row] * by_point(2, column)) * inverse_z;
+  for (int k = 0; k < 3; ++k) {
+    const double x_by_point = (by_point(0, k) - q[0] * by_point(2, k)) * inverse_z;
+    const double y_by_point = (by_point(1, k) - q[1] * by_point(2, k)) * inverse_z;
+    jacobian(0, k) = x_by_point * camera.fx;
+    jacobian(1, k) = camera.cahv.skew_px * x_by_point + camera.fy * y_by_point;
+  }
   return true;
 }
 
-bool distortCahvDirection(const Camera& camera, const Eigen::Vector3d& direction,
-                          Eigen::Vector2d& q) {
-  if (camera.model != CameraModel::kCahvore) return distortCahv(camera, direction, q);
+bool projectCahvoreDirection(const Camera& camera, const Eigen::Vector3d& direction,
+                             Eigen::Vector2d& pixel) {
   if (!isAhead(direction)) return false;
   const Split split(camera, direction);
   const double theta = atan2(split.across_length, split.along);
-  return theta <= camera.valid_radius && onImagePlane(camera, distortedAt(camera, split, theta), q);
+  return theta <= camera.valid_radius && pixelOf(camera, distortedAt(camera, split, theta), pixel);
 }
 
-bool undistortCahv(const Camera& camera, const Eigen::Vector2d& q, Ray& ray) {
+bool unprojectCahv(const Camera& camera, const Eigen::Vector2d& pixel, Ray& ray) {
+  const CahvLens& lens = camera.cahv;
+  const double x = (pixel.x() - camera.cx) / camera.fx;
+  const Eigen::Vector2d q(x, (pixel.y() - camera.cy - lens.skew_px * x) / camera.fy);
   ray.origin_m.setZero();
   ray.direction = {q.x(), q.y(), 1.0};
   if (camera.model == CameraModel::kCahv)
     return q.squaredNorm() <= camera.valid_radius * camera.valid_radius;
-  const CahvLens& lens = camera.cahv;
   const Split split(camera, ray.direction);
   if (!(split.along > 0.0)) return false;
   const bool has_pupil = camera.model == CameraModel::kCahvore;

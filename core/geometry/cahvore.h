@@ -7,10 +7,10 @@
 
 namespace boresight {
 
-/// The lens of the CAHV family between a point and the distorted direction q = d'_xy / d'_z, with
-/// pixel = (fx q_x + cx, skew q_x + fy q_y + cy): Gennery, "Generalized Camera Calibration
-/// Including Fish-Eye Lenses", IJCV 2006. A point d is split by the optical axis O into d = w O +
-/// lam.
+/// The lens of the CAHV family between a point and its pixel by the distorted direction
+/// q = d'_xy / d'_z, with pixel = (fx q_x + cx, skew q_x + fy q_y + cy): Gennery, "Generalized
+/// Camera Calibration Including Fish-Eye Lenses", IJCV 2006. A point d is split by the optical axis
+/// O into d = w O + lam.
 ///   CAHV:    d' = d
 ///   CAHVOR:  d' = d + mu lam,               mu = r0 + r1 tau + r2 tau^2, tau = |lam|^2 / w^2
 ///   CAHVORE: d' = |lam| / chi O + (1 + mu) lam, mu = r0 + r1 chi^2 + r2 chi^4, where
@@ -23,14 +23,14 @@ namespace boresight {
 /// range of the pupil.
 double prepareCahvLens(Camera& camera);
 
-bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q);
-/// Also d q / d point.
-bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q,
+bool projectCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& pixel);
+/// Also d pixel / d point.
+bool projectCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& pixel,
                  Eigen::Matrix<double, 2, 3>& jacobian);
-/// Distorted direction of a point infinitely far off.
-bool distortCahvDirection(const Camera& camera, const Eigen::Vector3d& direction,
-                          Eigen::Vector2d& q);
-bool undistortCahv(const Camera& camera, const Eigen::Vector2d& q, Ray& ray);
+/// Pixel of a point infinitely far off, of CAHVORE.
+bool projectCahvoreDirection(const Camera& camera, const Eigen::Vector3d& direction,
+                             Eigen::Vector2d& pixel);
+bool unprojectCahv(const Camera& camera, const Eigen::Vector2d& pixel, Ray& ray);
 
 /// Position of the pupil along O, m, for the ray through a point, within the image's range.
 double pupilOf(const Camera& camera, const Eigen::Vector3d& point);

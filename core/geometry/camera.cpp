@@ -33,34 +33,6 @@ bool plausibleLens(const CahvLens& lens) {
          within(lens.skew_px, kLargestPixel) && within(lens.linearity, kLargestLinearity);
 }
 
-/// Pixel of a distorted direction on the plane z = 1.
-inline Eigen::Vector2d cahvPixel(const Camera& camera, const Eigen::Vector2d& q) {
-  return {camera.fx * q.x() + camera.cx,
-          camera.cahv.skew_px * q.x() + camera.fy * q.y() + camera.cy};
-}
-
-inline Eigen::Vector2d cahvDistorted(const Camera& camera, const Eigen::Vector2d& pixel) {
-  const double x = (pixel.x() - camera.cx) / camera.fx;
-  return {x, (pixel.y() - camera.cy - camera.cahv.skew_px * x) / camera.fy};
-}
-
-bool projectCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& pixel,
-                 Eigen::Matrix<double, 2, 3>& jacobian) {
-  Eigen::Vector2d q;
-  if (!distortCahv(camera, point, q, jacobian)) return false;
-  pixel = cahvPixel(camera, q);
-  for (int k = 0; k < 3; ++k) {
-    jacobian(1, k) = camera.cahv.skew_px * jacobian(0, k) + camera.fy * jacobian(1, k);
-    jacobian(0, k) *= camera.fx;
-  }
-  return true;
-}
-
-inline bool inPinholeField(const Camera& camera, const Eigen::Vector2d& p) {
-  const double limit = camera.valid_radius;
-  return p.x() * p.x() + p.y() * p.y() <= limit * limit;
-}
-
 }  // namespace
 
 Status prepareCamera(Camera& camera) {
@@ -97,32 +69,15 @@ Status prepareCamera(Camera& camera) {
 
 bool project(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
              Eigen::Vector2d& pixel) {
-  if (isCahvFamily(camera.model)) {
-    Eigen::Vector2d q;
-    if (!distortCahv(camera, point_in_camera_m, q)) return false;
-    pixel = cahvPixel(camera, q);
-    return true;
-  }
+  if (isCahvFamily(camera.model)) return projectCahv(camera, point_in_camera_m, pixel);
   if (!(point_in_camera_m.z() > 0.0)) return false;
   const double inverse_z = 1.0 / point_in_camera_m.z();
   const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
   Eigen::Vector2d q = p;
-  bool valid = false;
-  switch (camera.model) {
-    case CameraModel::kPinhole:
-      valid = inPinholeField(camera, p);
-      break;
-    case CameraModel::kBrownConrady:
-      valid = distortBrownConrady(camera, p, q);
-      break;
-    case CameraModel::kKannalaBrandt:
-      valid = distortKannalaBrandt(camera, p, q);
-      break;
-    case CameraModel::kCahv:
-    case CameraModel::kCahvor:
-    case CameraModel::kCahvore:
-      break;  // above
-  }
+  const bool valid = camera.model == CameraModel::kBrownConrady ? distortBrownConrady(camera, p, q)
+                     : camera.model == CameraModel::kKannalaBrandt
+                         ? distortKannalaBrandt(camera, p, q)
+                         : inValidRadius(camera, p);
   if (!valid) return false;
   pixel.x() = camera.fx * q.x() + camera.cx;
   pixel.y() = camera.fy * q.y() + camera.cy;
@@ -137,22 +92,10 @@ bool projectWithJacobian(const Camera& camera, const Eigen::Vector3d& point_in_c
   const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
   Eigen::Vector2d q = p;
   Eigen::Matrix2d q_by_p = Eigen::Matrix2d::Identity();
-  bool valid = false;
-  switch (camera.model) {
-    case CameraModel::kPinhole:
-      valid = inPinholeField(camera, p);
-      break;
-    case CameraModel::kBrownConrady:
-      valid = distortBrownConrady(camera, p, q, q_by_p);
-      break;
-    case CameraModel::kKannalaBrandt:
-      valid = distortKannalaBrandt(camera, p, q, q_by_p);
-      break;
-    case CameraModel::kCahv:
-    case CameraModel::kCahvor:
-    case CameraModel::kCahvore:
-      break;  // above
-  }
+  const bool valid =
+      camera.model == CameraModel::kBrownConrady    ? distortBrownConrady(camera, p, q, q_by_p)
+      : camera.model == CameraModel::kKannalaBrandt ? distortKannalaBrandt(camera, p, q, q_by_p)
+                                                    : inValidRadius(camera, p);
   if (!valid) return false;
   pixel.x() = camera.fx * q.x() + camera.cx;
   pixel.y() = camera.fy * q.y() + camera.cy;
@@ -169,46 +112,31 @@ bool projectWithJacobian(const Camera& camera, const Eigen::Vector3d& point_in_c
 bool unproject(const Camera& camera, const Eigen::Vector2d& pixel, Eigen::Vector3d& ray) {
   if (isCahvFamily(camera.model)) {
     Ray with_origin;
-    if (!undistortCahv(camera, cahvDistorted(camera, pixel), with_origin)) return false;
+    if (!unprojectCahv(camera, pixel, with_origin)) return false;
     ray = with_origin.direction;
     return true;
   }
   const Eigen::Vector2d q((pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy);
   Eigen::Vector2d p = q;
-  bool valid = false;
-  switch (camera.model) {
-    case CameraModel::kPinhole:
-      valid = inPinholeField(camera, p);
-      break;
-    case CameraModel::kBrownConrady:
-      valid = undistortBrownConrady(camera, q, p);
-      break;
-    case CameraModel::kKannalaBrandt:
-      valid = undistortKannalaBrandt(camera, q, p);
-      break;
-    case CameraModel::kCahv:
-    case CameraModel::kCahvor:
-    case CameraModel::kCahvore:
-      break;  // above
-  }
+  const bool valid =
+      camera.model == CameraModel::kBrownConrady    ? undistortBrownConrady(camera, q, p)
+      : camera.model == CameraModel::kKannalaBrandt ? undistortKannalaBrandt(camera, q, p)
+                                                    : inValidRadius(camera, p);
   if (!valid) return false;
   ray = {p.x(), p.y(), 1.0};
   return true;
 }
 
 bool unprojectRay(const Camera& camera, const Eigen::Vector2d& pixel, Ray& ray) {
-  if (isCahvFamily(camera.model)) return undistortCahv(camera, cahvDistorted(camera, pixel), ray);
+  if (isCahvFamily(camera.model)) return unprojectCahv(camera, pixel, ray);
   ray.origin_m.setZero();
   return unproject(camera, pixel, ray.direction);
 }
 
 bool projectDirection(const Camera& camera, const Eigen::Vector3d& direction,
                       Eigen::Vector2d& pixel) {
-  if (camera.model != CameraModel::kCahvore) return project(camera, direction, pixel);
-  Eigen::Vector2d q;
-  if (!distortCahvDirection(camera, direction, q)) return false;
-  pixel = cahvPixel(camera, q);
-  return true;
+  return camera.model == CameraModel::kCahvore ? projectCahvoreDirection(camera, direction, pixel)
+                                               : project(camera, direction, pixel);
 }
 
 Eigen::Vector3d seenFromPupil(const Camera& camera, const Eigen::Vector3d& point_in_camera_m) {

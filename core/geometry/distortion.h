@@ -15,6 +15,12 @@ namespace boresight {
 /// far from overflow.
 inline constexpr double kLargestRadius = 1e4;
 
+/// Whether |p| is at most Camera::valid_radius.
+inline bool inValidRadius(const Camera& camera, const Eigen::Vector2d& p) {
+  const double limit = camera.valid_radius;
+  return p.x() * p.x() + p.y() * p.y() <= limit * limit;
+}
+
 /// Brown-Conrady with OpenCV's rational radial factor, s = |p|^2:
 ///   g(s) = (1 + k1 s + k2 s^2 + k3 s^3) / (1 + k4 s + k5 s^2 + k6 s^3)
 ///   q = g(s) p + (2 p1 x y + p2 (s + 2 x^2), p1 (s + 2 y^2) + 2 p2 x y)

@@ -64,11 +64,6 @@ inline void applyWithJacobian(const Camera& camera, const Eigen::Vector2d& p, Ei
   jacobian(1, 0) = jacobian(0, 1);
 }
 
-inline bool inValidField(const Camera& camera, const Eigen::Vector2d& p) {
-  const double limit = camera.valid_radius;
-  return p.x() * p.x() + p.y() * p.y() <= limit * limit;
-}
-
 /// r with r g(r^2) = distorted, or the valid radius when there is none in the field: a start for
 /// the plane, so close that only the tangential terms are left to find. Newton, kept between bounds
 /// because the slope may vanish at the end of the valid field.
@@ -115,14 +110,14 @@ double brownConradyValidRadius(const Camera& camera) {
 }
 
 bool distortBrownConrady(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q) {
-  if (!inValidField(camera, p)) return false;
+  if (!inValidRadius(camera, p)) return false;
   apply(camera, factorAt(camera, p.x() * p.x() + p.y() * p.y()), p, q);
   return true;
 }
 
 bool distortBrownConrady(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q,
                          Eigen::Matrix2d& jacobian) {
-  if (!inValidField(camera, p)) return false;
+  if (!inValidRadius(camera, p)) return false;
   applyWithJacobian(camera, p, q, jacobian);
   return true;
 }
@@ -152,7 +147,7 @@ bool undistortBrownConrady(const Camera& camera, const Eigen::Vector2d& q, Eigen
       applyWithJacobian(camera, candidate, at_p, jacobian);
       const Eigen::Vector2d candidate_residual = q - at_p;
       const double candidate_size = candidate_residual.norm();
-      better = candidate_size < size && inValidField(camera, candidate);
+      better = candidate_size < size && inValidRadius(camera, candidate);
       if (better) {
         p = candidate;
         residual = candidate_residual;

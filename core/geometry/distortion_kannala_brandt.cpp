@@ -8,8 +8,6 @@
 namespace boresight {
 namespace {
 
-constexpr int kMostAngleRounds = 100;
-
 inline double distortedAngle(const Camera& camera, double theta) {
   const auto& k = camera.distortion;
   const double s = theta * theta;
@@ -65,21 +63,12 @@ bool distortKannalaBrandt(const Camera& camera, const Eigen::Vector2d& p, Eigen:
 
 bool undistortKannalaBrandt(const Camera& camera, const Eigen::Vector2d& q, Eigen::Vector2d& p) {
   const double distorted = q.norm();
-  double low = 0.0;
-  double high = camera.valid_radius;
-  if (!(distorted <= distortedAngle(camera, high))) return false;
-  // Newton between bounds: the distorted angle increases up to the end of the valid field, where
-  // its slope may vanish.
-  double theta = distorted < high ? distorted : high;
-  for (int round = 0; round < kMostAngleRounds; ++round) {
-    const double excess = distortedAngle(camera, theta) - distorted;
-    if (excess == 0.0) break;
-    (excess > 0.0 ? high : low) = theta;
-    const double newton = theta - excess / distortedAngleSlope(camera, theta);
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (next == theta || next <= low || next >= high) break;
-    theta = next;
-  }
+  const double limit = camera.valid_radius;
+  if (!(distorted <= distortedAngle(camera, limit))) return false;
+  const double theta = rootBetween(
+      0.0, limit, distorted < limit ? distorted : limit,
+      [&](double at) { return distortedAngle(camera, at) - distorted; },
+      [&](double at) { return distortedAngleSlope(camera, at); });
   p = distorted > 0.0 ? Eigen::Vector2d(q * (tan(theta) / distorted)) : q;
   return true;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 
 namespace boresight {
 namespace {
@@ -90,7 +91,7 @@ bool isValid(const ScenePart& part) {
 bool framesAreApart(const MeshView& mesh) {
   const std::size_t first_in_camera = firstVertexInCamera(mesh);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (mesh.parts[mesh.part_of_face[f]].fixed_to_camera) continue;
+    if (mesh.partOf(f).fixed_to_camera) continue;
     for (const std::int32_t vertex : mesh.faces[f].vertex)
       if (static_cast<std::size_t>(vertex) >= first_in_camera) return false;
   }
@@ -109,13 +110,8 @@ Status validateMesh(const MeshView& mesh) {
   for (const ScenePart& part : mesh.parts)
     if (!isValid(part)) return Status::kInvalidMesh;
   for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m)
-    if (!isFinite(static_cast<double>(vertex.x())) || !isFinite(static_cast<double>(vertex.y())) ||
-        !isFinite(static_cast<double>(vertex.z())))
-      return Status::kInvalidMesh;
-  for (const Face& face : mesh.faces)
-    for (const std::int32_t vertex : face.vertex)
-      if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertex_count)
-        return Status::kInvalidMesh;
+    if (!vertex.allFinite()) return Status::kInvalidMesh;
+  if (!indicesInRange(mesh)) return Status::kInvalidMesh;
   for (const std::uint16_t part : mesh.part_of_face)
     if (part >= mesh.parts.size()) return Status::kInvalidMesh;
   return framesAreApart(mesh) ? Status::kOk : Status::kInvalidMesh;
@@ -124,7 +120,7 @@ Status validateMesh(const MeshView& mesh) {
 std::size_t firstVertexInCamera(const MeshView& mesh) {
   std::size_t first = mesh.vertices_in_station_m.size();
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (!mesh.parts[mesh.part_of_face[f]].fixed_to_camera) continue;
+    if (!mesh.partOf(f).fixed_to_camera) continue;
     for (const std::int32_t vertex : mesh.faces[f].vertex)
       first = std::min(first, static_cast<std::size_t>(vertex));
   }
@@ -153,26 +149,19 @@ Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdj
   return Status::kOk;
 }
 
+BoundingBox boxOf(const Eigen::AlignedBox3f& bounds_m) {
+  if (bounds_m.isEmpty()) return {};
+  return {bounds_m.min().cast<double>(), bounds_m.max().cast<double>()};
+}
+
 BoundingBox matchedBounds(const MeshView& mesh) {
-  Eigen::Vector3f low = Eigen::Vector3f::Zero();
-  Eigen::Vector3f high = low;
-  bool empty = true;
+  Eigen::AlignedBox3f bounds_m;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (!mesh.parts[mesh.part_of_face[f]].match) continue;
-    for (const std::int32_t index : mesh.faces[f].vertex) {
-      const Eigen::Vector3f& vertex = mesh.vertices_in_station_m[static_cast<std::size_t>(index)];
-      if (empty) low = high = vertex;
-      empty = false;
-      for (int k = 0; k < 3; ++k) {
-        if (vertex[k] < low[k]) low[k] = vertex[k];
-        if (vertex[k] > high[k]) high[k] = vertex[k];
-      }
-    }
+    if (!mesh.partOf(f).match) continue;
+    for (const std::int32_t vertex : mesh.faces[f].vertex)
+      bounds_m.extend(nth(mesh.vertices_in_station_m, vertex));
   }
-  BoundingBox box;
-  box.minimum_m = low.cast<double>();
-  box.maximum_m = high.cast<double>();
-  return box;
+  return boxOf(bounds_m);
 }
 
 }  // namespace boresight

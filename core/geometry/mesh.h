@@ -7,10 +7,11 @@
 #include <span>
 #include <type_traits>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "core/base/arena.h"
 #include "core/base/index_list.h"
+#include "core/base/nth.h"
 #include "core/base/status.h"
 
 namespace boresight {
@@ -116,14 +117,29 @@ constexpr std::uint8_t roleByte(const ScenePart& part) {
   return part.match ? 1 : 0;
 }
 
+/// The corners of a face.
+using Corners = std::array<Eigen::Vector3d, 3>;
+
 /// The scene, owned by the caller: welded vertices in the station frame (metres), faces, and the
 /// part of each face. Single precision is 3e-8 m at 0.5 m, far below any edge's accuracy.
 struct MeshView {
   /// Metres. The vertices of parts fixed to the camera come last, and are in the camera frame.
   std::span<const Eigen::Vector3f> vertices_in_station_m;
-  FaceList faces;                                          ///< triangles
-  std::span<const std::uint16_t> part_of_face;             ///< index into parts, one per face
-  std::span<const ScenePart> parts;                        ///< at least one
+  FaceList faces;                               ///< triangles
+  std::span<const std::uint16_t> part_of_face;  ///< index into parts, one per face
+  std::span<const ScenePart> parts;             ///< at least one
+
+  /// The part that a face belongs to.
+  const ScenePart& partOf(std::size_t face) const { return parts[part_of_face[face]]; }
+  /// A vertex, metres.
+  Eigen::Vector3d vertex(std::int32_t index) const {
+    return nth(vertices_in_station_m, index).cast<double>();
+  }
+  /// The corners of a face, metres.
+  Corners corners(std::size_t face) const {
+    const Face indices = faces[face];
+    return {vertex(indices.vertex[0]), vertex(indices.vertex[1]), vertex(indices.vertex[2])};
+  }
 };
 
 /// kInvalidMesh when there are no faces, an index is out of range, a coordinate or threshold is not
@@ -178,7 +194,15 @@ struct BoundingBox {
   Eigen::Vector3d centre() const { return 0.5 * (minimum_m + maximum_m); }
   /// Length from corner to corner, m.
   double diagonal() const { return (maximum_m - minimum_m).norm(); }
+  /// One of the eight corners: bit k of `index` chooses the largest coordinate k.
+  Eigen::Vector3d corner(int index) const {
+    Eigen::Vector3d point;
+    for (int k = 0; k < 3; ++k) point[k] = ((index >> k) & 1) != 0 ? maximum_m[k] : minimum_m[k];
+    return point;
+  }
 };
+/// The box of single-precision bounds; zeros when they are empty.
+BoundingBox boxOf(const Eigen::AlignedBox3f& bounds_m);
 BoundingBox matchedBounds(const MeshView& mesh);
 
 }  // namespace boresight

@@ -35,10 +35,6 @@ Eigen::Quaterniond canonical(const Eigen::Quaterniond& q) {
   return decisive < 0.0 ? Eigen::Quaterniond(-q.w(), -q.x(), -q.y(), -q.z()) : q;
 }
 
-bool allFinite(const Eigen::Vector3d& v) {
-  return isFinite(v.x()) && isFinite(v.y()) && isFinite(v.z());
-}
-
 }  // namespace
 
 Eigen::Vector3d Pose::operator*(const Eigen::Vector3d& point) const {
@@ -54,10 +50,7 @@ Pose Pose::inverse() const {
   return {reverse, -(reverse * translation_m)};
 }
 
-bool Pose::isFinite() const {
-  const Eigen::Vector4d& q = rotation.coeffs();
-  return allFinite(translation_m) && allFinite(q.head<3>()) && boresight::isFinite(q.w());
-}
+bool Pose::isFinite() const { return translation_m.allFinite() && rotation.coeffs().allFinite(); }
 
 Eigen::Quaterniond rotationExp(const Eigen::Vector3d& rotation_rad) {
   const double square = rotation_rad.squaredNorm();
@@ -98,7 +91,7 @@ Status poseFromMatrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& tr
   const Eigen::Matrix3d gram = rotation.transpose() * rotation;
   deviation = (gram - Eigen::Matrix3d::Identity()).norm();
   if (!isFinite(deviation)) deviation = std::numeric_limits<double>::max();
-  if (!(deviation <= kLargestDeviation) || !allFinite(translation_m)) return Status::kInvalidPose;
+  if (!(deviation <= kLargestDeviation) || !translation_m.allFinite()) return Status::kInvalidPose;
   if (rotation.row(0).dot(rotation.row(1).cross(rotation.row(2))) < 0.0)
     return Status::kInvalidPose;
 

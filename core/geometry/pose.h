@@ -26,6 +26,21 @@ struct Pose {
   bool operator==(const Pose&) const = default;  ///< the same numbers, not the same rotation
 };
 
+/// The transform of a pose as a rotation matrix, for many points.
+struct PoseMatrix {
+  Eigen::Matrix3d rotation;       ///< of the pose
+  Eigen::Vector3d translation_m;  ///< of the pose
+
+  PoseMatrix() = default;  ///< Without values
+  /// The same transform.
+  explicit PoseMatrix(const Pose& pose)
+      : rotation(pose.matrix()), translation_m(pose.translation_m) {}
+  /// p_a of a point p_b, metres.
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return rotation * point + translation_m;
+  }
+};
+
 /// Rotation by |r| rad about r (Rodrigues), with sin and cos of core/base/math.h.
 Eigen::Quaterniond rotationExp(const Eigen::Vector3d& rotation_rad);
 /// The rotation vector of a unit quaternion, angle in [0, pi].

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -31,20 +33,13 @@ void rotateToDiagonal(int p, int q, Eigen::Matrix3d& matrix, Eigen::Matrix3d& ax
 }  // namespace
 
 SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
-  const auto vertexOf = [&](const Face& face, std::size_t corner) {
-    const auto index = static_cast<std::size_t>(face.vertex[corner]);
-    return Eigen::Vector3d(mesh.vertices_in_station_m[index].cast<double>());
-  };
   const auto forMatched = [&](auto&& take) {
     for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-      if (!mesh.parts[mesh.part_of_face[i]].match) continue;
-      const Face& face = mesh.faces[i];
-      const std::array<Eigen::Vector3d, 3> corners = {vertexOf(face, 0), vertexOf(face, 1),
-                                                      vertexOf(face, 2)};
+      if (!mesh.partOf(i).match) continue;
+      const Corners corners = mesh.corners(i);
       take(corners, (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm());
     }
   };
-  using Corners = std::array<Eigen::Vector3d, 3>;
   SurfaceAxes surface_axes;
   double area = 0.0;
   forMatched([&](const Corners& corners, double weight) {
@@ -74,8 +69,7 @@ SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
     return spread(a, a) < spread(b, b) || (spread(a, a) == spread(b, b) && a < b);
   });
   const Eigen::Matrix3d axes = surface_axes.axes;
-  for (int i = 0; i < 3; ++i)
-    surface_axes.axes.col(i) = axes.col(order[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 3; ++i) surface_axes.axes.col(i) = axes.col(nth(order, i));
   return surface_axes;
 }
 

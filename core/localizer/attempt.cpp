@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/schedule.h"
 
@@ -86,7 +87,7 @@ PassPlan Attempt::plan(const RunContext& run) const {
 
 Ruling Attempt::take(const PassOutcome& outcome, const Agreement& agreement, const RunContext& run,
                      std::span<Iteration, 2> records) {
-  Iteration& record = records[static_cast<std::size_t>(record_)];
+  Iteration& record = nth(records, record_);
   if (record.kind == IterationKind::kMatch) return takeHypothesis(outcome, agreement, run, records);
   if (record.status != LocalizationStatus::kRunning)
     return failed(outcome.reached, record.status, record_);
@@ -104,7 +105,7 @@ Ruling Attempt::takeHypothesis(const PassOutcome& outcome, const Agreement& agre
   HypothesisSummary summary = summaryOf(records[current]);
   summary.roll_rad = rollOf(hypothesis_);
   for (Iteration& record : records) {
-    record.hypotheses[static_cast<std::size_t>(hypothesis_)] = summary;
+    nth(record.hypotheses, hypothesis_) = summary;
     record.hypothesis_count = hypothesis_ + 1;
   }
   const bool better = !has_best_ || agreement.inliers > agreement_[best].inliers;
@@ -129,7 +130,7 @@ Ruling Attempt::takeHypothesis(const PassOutcome& outcome, const Agreement& agre
 
 /// Whether more matches agree than chance explains. A later attempt tries every roll.
 bool Attempt::isConvincing(int record, const Iteration& iteration, const LoopOptions& loop) const {
-  const Agreement& agreement = agreement_[static_cast<std::size_t>(record)];
+  const Agreement& agreement = nth(agreement_, record);
   return index_ == 0 && iteration.status == LocalizationStatus::kRunning &&
          agreement.inliers >= loop.enough_inliers * agreement.correspondences;
 }
@@ -197,9 +198,8 @@ HypothesisSummary summaryOf(const Iteration& iteration) {
   summary.solved = iteration.status == LocalizationStatus::kRunning;
   summary.camera_from_station = iteration.pnp.camera_from_station;
   for (std::int32_t i = 0; i < iteration.correspondence_count; ++i) {
-    const double ratio = summary.solved ? iteration.pnp.residual_px[static_cast<std::size_t>(i)] /
-                                              iteration.threshold_px
-                                        : 1.0;
+    const double ratio =
+        summary.solved ? nth(iteration.pnp.residual_px, i) / iteration.threshold_px : 1.0;
     summary.cost += std::min(1.0, ratio * ratio);
   }
   return summary;

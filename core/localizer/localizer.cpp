@@ -16,19 +16,17 @@ namespace {
 /// the scene.
 bool reachesTruth(const Seed& seed, const RunContext& run) {
   return motionWithin_px(seed, run.scene, run.camera) <=
-         kFirstRadius_px * static_cast<double>(1 << run.levels.coarse);
+         kFirstRadius_px * levelScale(run.levels.coarse);
 }
 
 }  // namespace
 
 StepReport Localizer::step() {
-  StepReport report = StepReport::of(Stage::kFinished, false);
-  report.finished = true;
-  if (phase_ == Phase::kEnded) return report;
+  if (phase_ == Phase::kEnded) return StepReport::end(false);
   if (status_ != Status::kOk)
     return finish(LocalizationStatus::kFault, StepReport::of(Stage::kEdges, true));
   if (!pass_.running()) pass_.begin(plan());
-  report = pass_.step();  // bounded; uses the arena only; writes the digest
+  const StepReport report = pass_.step();  // bounded; uses the arena only; writes the digest
   return pass_.running() ? report : decide(report);
 }
 
@@ -133,7 +131,7 @@ StepReport Localizer::weighed() {
   const PoseComparison::Next next =
       comparison_.takePose(attempt_, workspace().iteration->camera_from_station_before, measured,
                            pass_.outcome().weak, pass_.context());
-  noteHypotheses();
+  comparison_.show(pass_.context(), pass_.workspace());
   return follow(next, LocalizationStatus::kConverged, report);
 }
 

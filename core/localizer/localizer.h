@@ -123,7 +123,6 @@ class Localizer {
   StepReport fail(const Ruling& ruling);
   StepReport searchAll(const StepReport& report);
   StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
-  void noteHypotheses();
   StepReport show(const Ruling& ruling);
   Agreement agreement() const;
   StepReport finish(LocalizationStatus status, StepReport report);

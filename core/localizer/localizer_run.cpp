@@ -74,17 +74,8 @@ void Localizer::startComparison() {
     comparison_ = PoseComparison::ofFirst(workspace().candidates, seed);
   else
     comparison_ = PoseComparison(workspace().candidates, seed);
-  noteHypotheses();
+  comparison_.show(pass_.context(), pass_.workspace());
   iterate(comparison_.next(attempt_.index(), pass_.context()));
-}
-
-/// Shows the hypotheses so far.
-void Localizer::noteHypotheses() {
-  Workspace& workspace = pass_.workspace();
-  workspace.hypotheses = comparison_.hypotheses();
-  workspace.best_hypothesis = comparison_.bestIndex();
-  workspace.competitor = comparison_.competitorIndex(pass_.context());
-  workspace.gap = comparison_.gap(pass_.context());
 }
 
 /// Starts the first iteration of an attempt.

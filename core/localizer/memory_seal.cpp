@@ -2,6 +2,7 @@
 #include "core/localizer/memory_seal.h"
 
 #include "core/base/crc32.h"
+#include "core/base/nth.h"
 #include "core/localizer/run_digest.h"
 
 namespace boresight {
@@ -18,8 +19,8 @@ std::uint32_t MemorySeal::checksumOf(std::span<const std::byte> memory) {
 /// Other levels do not outlive the first render.
 std::uint32_t MemorySeal::checksumOf(const EdgeMap& edges, RunLevels levels) {
   const std::array<std::uint32_t, 2> sums = {
-      checksumOf(std::as_bytes(edges.level[static_cast<std::size_t>(levels.fine)].words)),
-      checksumOf(std::as_bytes(edges.level[static_cast<std::size_t>(levels.coarse)].words))};
+      checksumOf(std::as_bytes(nth(edges.level, levels.fine).words)),
+      checksumOf(std::as_bytes(nth(edges.level, levels.coarse).words))};
   return checksumOf(std::as_bytes(std::span(sums)));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
 
@@ -104,7 +105,7 @@ void Pass::begin(const PassPlan& plan) {
 void Pass::dropOtherEdges() {
   for (int level = 0; level < kPyramidLevels; ++level)
     if (level < levels_.fine || level > levels_.coarse)
-      workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
+      nth(workspace_.edges.level, level) = BitImage();
 }
 
 void Pass::prepareRecord() {
@@ -137,7 +138,7 @@ EdgeRender& Pass::renderMemory() {
 
 /// Whether the last refinement's render shows the scene as a new render would.
 bool Pass::keepsRender(const Iteration& iteration) const {
-  const Camera& camera = memory_.rays[static_cast<std::size_t>(plan_.level)].camera();
+  const Camera& camera = nth(memory_.rays, plan_.level).camera();
   return iteration.render.camera.width == camera.width &&
          displacementBetween_px(iteration.render.camera_from_station, plan_.rendered_from_station,
                                 scene_, problem_.camera) < plan_.keep_render_px;
@@ -153,7 +154,7 @@ void Pass::runTask(int task, int worker) {
   if (stage_ == Stage::kRender) {
     memory_.renderer.runTask(task, worker);
   } else if (stage_ == Stage::kMatch) {
-    WhsSearch& search = memory_.searches[static_cast<std::size_t>(worker)];
+    WhsSearch& search = nth(memory_.searches, worker);
     if (beginMatch(task, search)) {
       while (!search.step()) {
       }
@@ -205,7 +206,7 @@ StepReport Pass::endFaulted(Stage stage, Status fault) {
 }
 
 void Pass::show(const Ruling& ruling) {
-  Iteration& shown = memory_.records[static_cast<std::size_t>(ruling.record)];
+  Iteration& shown = nth(memory_.records, ruling.record);
   workspace_.iteration = &shown;
   if (ruling.failed()) shown.status = ruling.status;
   if ((ruling.iteration_complete || ruling.failed()) && shown.index == workspace_.iterations)

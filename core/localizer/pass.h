@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/digest.h"
+#include "core/base/nth.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/memory_seal.h"
 #include "core/localizer/pass_memory.h"
@@ -68,8 +69,6 @@ class Pass {
   PassNeed needs() const;
   /// Leaves matching to the caller; renders also fill `surfaces`. See Localizer::matchOutside.
   void matchOutside(const SurfaceRender& surfaces);
-  /// Whether the caller matches.
-  bool matchesOutside() const { return match_outside_; }
   /// False when the caller matches: then every attempt starts from the seed.
   bool searches() const { return options_.search.enabled && !match_outside_; }
   /// Takes matches in place of those of WHS. kInvalidOption when the pass waits for none,
@@ -122,17 +121,13 @@ class Pass {
   /// The stages and their memory.
   PassMemory& memory() { return memory_; }
   /// The record of an iteration, by its index in memory.
-  const Iteration& recordAt(int index) const {
-    return memory_.records[static_cast<std::size_t>(index)];
-  }
+  const Iteration& recordAt(int index) const { return nth(memory_.records, index); }
   /// The record of the iteration under way.
-  Iteration& record() { return memory_.records[static_cast<std::size_t>(plan_.record)]; }
+  Iteration& record() { return nth(memory_.records, plan_.record); }
   /// The record of the iteration under way.
   const Iteration& record() const { return recordAt(plan_.record); }
   /// The digest of all that was computed so far.
   const DigestWriter& digest() const { return digest_; }
-  /// The digest of all that was computed so far.
-  DigestWriter& digest() { return digest_; }
 
  private:
   void dropOtherEdges();

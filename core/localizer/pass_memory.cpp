@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/nth.h"
 #include "core/edges/edge_map.h"
 #include "core/localizer/schedule.h"
 
@@ -72,7 +73,7 @@ struct PassMemory::Layout {
   EdgeRender createRender(int level);
   void shareScratch(std::size_t& bytes, std::size_t first);
   void shareBehindRenders(std::size_t& bytes) { shareScratch(bytes, render_bytes); }
-  std::size_t& bytesOf(Stage stage) { return to.use_.stage[static_cast<std::size_t>(stage)]; }
+  std::size_t& bytesOf(Stage stage) { return nth(to.use_.stage, stage); }
 };
 
 std::size_t MemoryUse::total() const {
@@ -128,11 +129,10 @@ Status PassMemory::Layout::layOutKept() {
   Status status = buildAdjacency(problem.mesh, kept, to.scratch_, to.adjacency_);
   shareScratch(to.use_.construction, 0);
   for (int level = levels.fine; level <= levels.coarse && status == Status::kOk; ++level) {
-    status = RayGrid::create(cameraAtLevel(problem.camera, level), kept,
-                             to.rays[static_cast<std::size_t>(level)]);
+    status = RayGrid::create(cameraAtLevel(problem.camera, level), kept, nth(to.rays, level));
   }
   if (kept.countsOnly()) to.table_bytes_ = kept.mark();
-  to.searches = kept.allocate<WhsSearch>(static_cast<std::size_t>(workers));
+  to.searches = kept.allocate<WhsSearch>(workers);
   to.tasks.create(static_cast<std::size_t>(std::max({options.templates.count,
                                                      EdgeRefinement::chunksOf(options.refinement),
                                                      EdgeRenderer::mostTasks(workers)})),
@@ -206,8 +206,7 @@ Status PassMemory::Layout::layOutStages() {
 Status PassMemory::Layout::layOutAfterMatches() {
   Arena& scratch = to.scratch_;
   if (options.refinement.enabled) {
-    to.records[0].refinement.samples =
-        scratch.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
+    to.records[0].refinement.samples = scratch.allocate<EdgeSample>(options.refinement.max_samples);
   }
   const std::size_t samples_end = scratch.mark();
   Status status = to.refinement.create(options.refinement, scratch);
@@ -231,8 +230,7 @@ Status PassMemory::Layout::layOutSearches(int longest_px) {
   WhsSearch counted;
   Status status = Status::kOk;
   for (int worker = 0; worker < workers && status == Status::kOk; ++worker) {
-    WhsSearch& of_worker =
-        to.searches.empty() ? counted : to.searches[static_cast<std::size_t>(worker)];
+    WhsSearch& of_worker = to.searches.empty() ? counted : nth(to.searches, worker);
     status = of_worker.create(side_px, longest_px, kernels, to.scratch_);
   }
   return status;

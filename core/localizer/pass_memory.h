@@ -8,6 +8,7 @@
 #include "core/accept/region_evidence.h"
 #include "core/base/arena.h"
 #include "core/base/kernels.h"
+#include "core/base/nth.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/pass_plan.h"
 #include "core/localizer/problem.h"
@@ -36,9 +37,7 @@ struct MemoryUse {
   std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
 
   /// High-water mark of a stage.
-  std::size_t of(Stage at) const {
-    return at < Stage::kFinished ? kept + stage[static_cast<std::size_t>(at)] : kept;
-  }
+  std::size_t of(Stage at) const { return at < Stage::kFinished ? kept + nth(stage, at) : kept; }
   /// High-water mark of the whole run: the size of the block.
   std::size_t total() const;
 };

@@ -44,8 +44,7 @@ Match matchOf(const SuppliedMatch& supplied, const Camera& camera) {
   match.peak.has_second = supplied.has_second;
   if (supplied.has_second) match.peak.second_counts = countsOf(supplied.second_score);
   match.searched = true;
-  match.at_border = match.peak.x <= match.window.x_min || match.peak.x >= match.window.x_max ||
-                    match.peak.y <= match.window.y_min || match.peak.y >= match.window.y_max;
+  match.at_border = match.window.endsAt(match.peak.x, match.peak.y);
   return match;
 }
 

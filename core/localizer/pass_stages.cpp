@@ -2,6 +2,7 @@
 // The stages of a pass, in their order.
 #include <algorithm>
 
+#include "core/base/nth.h"
 #include "core/localizer/acceptance.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/pose_change.h"
@@ -11,6 +12,15 @@
 #include "core/search/wider_search.h"
 
 namespace boresight {
+
+namespace {
+
+TemplateView viewOf(const Iteration& iteration, const Template& item) {
+  return {&iteration.render.edges, &iteration.render.mask, item.center_x, item.center_y,
+          iteration.templates.side_px};
+}
+
+}  // namespace
 
 StepReport Pass::step() {
   if (!running_ || needs() != PassNeed::kNothing) return StepReport::of(stage_, false);
@@ -74,9 +84,8 @@ StepReport Pass::stepRender() {
     const Pose rendered = plan_.roll_rad == 0.0 ? plan_.rendered_from_station
                                                 : rolledAboutScene(plan_.rendered_from_station,
                                                                    plan_.roll_rad, scene_);
-    const Status status =
-        memory_.renderer.begin(memory_.rays[static_cast<std::size_t>(iteration.level)], rendered,
-                               iteration.render, surfaces_);
+    const Status status = memory_.renderer.begin(nth(memory_.rays, iteration.level), rendered,
+                                                 iteration.render, surfaces_);
     if (status != Status::kOk) return endFaulted(Stage::kRender, status);
     stage_begun_ = true;
     memory_.tasks.open(memory_.renderer.tasks());
@@ -143,8 +152,7 @@ StepReport Pass::stepMatch() {
   }
   tasks.open(0);
   for (std::int32_t i = 0; i < iteration.matches.count; ++i) {
-    if (iteration.matches.matches[static_cast<std::size_t>(i)].searched)
-      ++iteration.matches.searched;
+    if (nth(iteration.matches.matches, i).searched) ++iteration.matches.searched;
   }
   digestMatches(iteration.matches, digest_);
   collectCorrespondences();
@@ -158,54 +166,46 @@ StepReport Pass::stepMatch() {
 /// False when the template cannot be searched for.
 bool Pass::beginMatch(int index, WhsSearch& search) {
   Iteration& iteration = record();
-  const Template& item = iteration.templates.templates[static_cast<std::size_t>(index)];
-  Match& match = iteration.matches.matches[static_cast<std::size_t>(index)];
+  const Template& item = nth(iteration.templates.templates, index);
+  Match& match = nth(iteration.matches.matches, index);
   match = Match{};
   // The window lies around the hypothesis that is not rolled: the uncertainty refers to it.
   match.window =
       searchWindow(iteration.render.camera, plan_.camera_from_station * item.point_in_station_m,
                    iteration.uncertainty, iteration.templates.side_px);
   if (match.window.empty()) return false;
-  const TemplateView view{&iteration.render.edges, &iteration.render.mask, item.center_x,
-                          item.center_y, iteration.templates.side_px};
-  return search.begin(view, workspace_.edges.level[static_cast<std::size_t>(iteration.level)],
+  return search.begin(viewOf(iteration, item), nth(workspace_.edges.level, iteration.level),
                       match.window, item.center_x, item.center_y,
                       kSecondPeakExclusion_px) == Status::kOk;
 }
 
 void Pass::finishMatch(int index, const WhsSearch& search) {
   Iteration& iteration = record();
-  const Template& item = iteration.templates.templates[static_cast<std::size_t>(index)];
-  Match& match = iteration.matches.matches[static_cast<std::size_t>(index)];
+  const Template& item = nth(iteration.templates.templates, index);
+  Match& match = nth(iteration.matches.matches, index);
   match.peak = search.peak();
   match.norms = search.norms();
   match.x = match.peak.x;
   match.y = match.peak.y;
   if (options_.loop.subpixel_matches) {
-    const TemplateView view{&iteration.render.edges, &iteration.render.mask, item.center_x,
-                            item.center_y, iteration.templates.side_px};
-    subpixelPeak(view, workspace_.edges.level[static_cast<std::size_t>(iteration.level)],
-                 match.peak, match.x, match.y);
+    subpixelPeak(viewOf(iteration, item), nth(workspace_.edges.level, iteration.level), match.peak,
+                 match.x, match.y);
   }
   match.searched = true;
-  match.at_border = match.peak.x == match.window.x_min || match.peak.x == match.window.x_max ||
-                    match.peak.y == match.window.y_min || match.peak.y == match.window.y_max;
+  match.at_border = match.window.endsAt(match.peak.x, match.peak.y);
 }
 
 void Pass::collectCorrespondences() {
   Iteration& iteration = record();
   iteration.correspondence_count = 0;
-  const double scale = static_cast<double>(1 << iteration.level);
   for (std::int32_t i = 0; i < iteration.matches.count; ++i) {
-    const Match& match = iteration.matches.matches[static_cast<std::size_t>(i)];
+    const Match& match = nth(iteration.matches.matches, i);
     if (!match.searched) continue;
     const auto at = static_cast<std::size_t>(iteration.correspondence_count++);
     Correspondence& correspondence = iteration.correspondences[at];
-    correspondence.point_in_station_m =
-        iteration.templates.templates[static_cast<std::size_t>(i)].point_in_station_m;
-    correspondence.pixel =
-        Eigen::Vector2d((match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5);
-    correspondence.sigma_px = kMatchSigma_px * scale;
+    correspondence.point_in_station_m = nth(iteration.templates.templates, i).point_in_station_m;
+    correspondence.pixel = atFullResolution({match.x, match.y}, iteration.level);
+    correspondence.sigma_px = kMatchSigma_px * levelScale(iteration.level);
     iteration.template_of[at] = i;
   }
 }

@@ -14,13 +14,6 @@ Vector6d limitsOf(const SeedUncertainty& uncertainty) {
   return limits;
 }
 
-Eigen::Vector3d cornerOf(const BoundingBox& box, int corner) {
-  Eigen::Vector3d point;
-  for (int axis = 0; axis < 3; ++axis)
-    point[axis] = ((corner >> axis) & 1) != 0 ? box.maximum_m[axis] : box.minimum_m[axis];
-  return point;
-}
-
 }  // namespace
 
 double translationBetween_m(const Pose& before, const Pose& after, const RunContext& run) {
@@ -46,7 +39,7 @@ double displacementBetween_px(const Pose& before, const Pose& after, const Bound
   double sum_px = 0.0;
   int seen = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d point_in_station_m = cornerOf(scene, corner);
+    const Eigen::Vector3d point_in_station_m = scene.corner(corner);
     Eigen::Vector2d from_px;
     Eigen::Vector2d to_px;
     if (!project(camera, before * point_in_station_m, from_px)) continue;
@@ -70,7 +63,7 @@ double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
   Eigen::AlignedBox2d box;
   for (int corner = 0; corner < 8; ++corner) {
     Eigen::Vector2d pixel;
-    if (project(camera, camera_from_station * cornerOf(scene, corner), pixel)) box.extend(pixel);
+    if (project(camera, camera_from_station * scene.corner(corner), pixel)) box.extend(pixel);
   }
   const Eigen::AlignedBox2d image(Eigen::Vector2d::Zero(),
                                   Eigen::Vector2d(camera.width, camera.height));

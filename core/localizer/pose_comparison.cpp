@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/localizer/acceptance.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/schedule.h"
@@ -35,11 +36,11 @@ constexpr double kNear = 0.1;
 
 /// Whether a refinement on edges at the level converges from the candidate's pose.
 bool isWithinReach(const PoseCandidate& candidate, int level) {
-  return candidate.error_px <= kOfRadius * kFirstRadius_px * static_cast<double>(1 << level);
+  return candidate.error_px <= kOfRadius * kFirstRadius_px * levelScale(level);
 }
 
 /// Poses nearer than this at a level are one hypothesis, px of the full image.
-double sameAt_px(int level) { return kSame_px * static_cast<double>(1 << level); }
+double sameAt_px(int level) { return kSame_px * levelScale(level); }
 
 }  // namespace
 
@@ -101,8 +102,7 @@ int PoseComparison::firstCandidateFrom(int index) const {
   for (const PoseCandidate& candidate : candidates_)
     most_nats = std::max(most_nats, candidate.evidence.total_nats());
   const auto count = static_cast<int>(candidates_.size());
-  while (index < count && candidates_[static_cast<std::size_t>(index)].evidence.total_nats() <
-                              kOfBestTotal * most_nats)
+  while (index < count && nth(candidates_, index).evidence.total_nats() < kOfBestTotal * most_nats)
     ++index;
   return index;
 }
@@ -136,7 +136,7 @@ Attempt PoseComparison::start(int attempt, const RunContext& run) {
         return Attempt(attempt, seed_, seed_.camera_from_station, true, run.options.loop);
       [[fallthrough]];
     case Source::kCandidates: {
-      const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(number)];
+      const PoseCandidate& candidate = nth(candidates_, number);
       // A direction that the image does not determine, such as a turn about an axis of symmetry,
       // may have left the box.
       const Pose start = pulledBack(seed_, candidate.camera_from_station);
@@ -167,7 +167,7 @@ Attempt PoseComparison::restart(int attempt, const RunContext& run) {
     restarted_from_ = hypotheses_[best_index_].camera_from_station;
   }
   const double side = current_.number % 2 == 0 ? 1.0 : -1.0;
-  const double motion_px = side * kRestart_px * static_cast<double>(1 << run.levels.fine);
+  const double motion_px = side * kRestart_px * levelScale(run.levels.fine);
   Attempt started(attempt, seed_, restarted_.moved(restarted_from_, current_.number / 2, motion_px),
                   true, run.options.loop);
   // A pose that does not convince may be far from the right one: each restart has its own render.
@@ -248,6 +248,13 @@ double PoseComparison::gap(const RunContext& run) const {
   const int competitor = competitorIndex(run);
   const double other = competitor < 0 ? 0.0 : hypotheses_[competitor].score;
   return hypotheses_[best_index_].score - std::max(0.0, other);
+}
+
+void PoseComparison::show(const RunContext& run, Workspace& workspace) const {
+  workspace.hypotheses = hypotheses();
+  workspace.best_hypothesis = best_index_;
+  workspace.competitor = competitorIndex(run);
+  workspace.gap = gap(run);
 }
 
 }  // namespace boresight

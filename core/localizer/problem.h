@@ -39,7 +39,6 @@ struct ProblemSize {
   int faces = 0;                              ///< of the mesh
   int parts = 1;                              ///< of the scene
   CameraModel model = CameraModel::kPinhole;  ///< of the camera
-  bool ignore = false;                        ///< whether there is an ignore mask
 };
 inline ProblemSize sizeOf(const LocalizationProblem& problem) {
   return {problem.image.width,
@@ -47,8 +46,7 @@ inline ProblemSize sizeOf(const LocalizationProblem& problem) {
           static_cast<int>(problem.mesh.vertices_in_station_m.size()),
           static_cast<int>(problem.mesh.faces.size()),
           static_cast<int>(problem.mesh.parts.size()),
-          problem.camera.model,
-          problem.ignore != nullptr};
+          problem.camera.model};
 }
 
 }  // namespace boresight

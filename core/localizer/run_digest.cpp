@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "core/base/crc32.h"
+#include "core/base/nth.h"
+#include "core/localizer/value_writers.h"
 
 namespace boresight {
 namespace {
@@ -29,14 +31,9 @@ void digestBits(const BitImage& image, Writer& writer) {
     }
     writer.u64(differing);
     for (; differing != 0; differing &= differing - 1)
-      writer.u64(words[static_cast<std::size_t>(std::countr_zero(differing))]);
+      writer.u64(nth(words, std::countr_zero(differing)));
     before = last;
   }
-}
-
-template <class Vector, class Writer>
-void digestVector(const Vector& vector, Writer& writer) {
-  for (Eigen::Index i = 0; i < vector.size(); ++i) writer.f64(vector[i]);
 }
 
 void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
@@ -60,13 +57,21 @@ std::uint32_t checksumOf(const BitImage& image) {
 
 std::uint32_t checksumOf(const MeshView& mesh) {
   ChecksumWriter sum;
-  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m)
-    for (int i = 0; i < 3; ++i) sum.f32(vertex[i]);
+  writeVertices(mesh, sum);
   for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
     for (const std::int32_t vertex : mesh.faces[face].vertex) sum.i32(vertex);
     sum.i32(mesh.part_of_face[face]);
   }
   return sum.checksum();
+}
+
+void digestContours(const ContourEvidence& evidence, DigestWriter& writer) {
+  writer.tag("contours");
+  writeIntegers({evidence.places, evidence.outline_places}, writer);
+  writeReals({evidence.place_length_px, evidence.edges_nats, evidence.outline_nats,
+              evidence.expected_nats, evidence.outline_expected_nats},
+             writer);
+  writeReals(evidence.quadrant_nats, writer);
 }
 
 }  // namespace
@@ -81,19 +86,12 @@ void digestOptions(const LocalizerOptions& options, DigestWriter& writer) {
   });
 }
 
-void digestPose(const Pose& pose, DigestWriter& writer) {
-  writer.f64(pose.rotation.w());
-  writer.f64(pose.rotation.x());
-  writer.f64(pose.rotation.y());
-  writer.f64(pose.rotation.z());
-  digestVector(pose.translation_m, writer);
-}
+void digestPose(const Pose& pose, DigestWriter& writer) { writePose(pose, writer); }
 
 void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   writer.tag("problem");
   const ImageView& image = problem.image;
-  writer.i32(image.width);
-  writer.i32(image.height);
+  writeIntegers({image.width, image.height}, writer);
   writer.u32(checksumOfRows(image.data, image.stride, image.height,
                             static_cast<std::size_t>(image.width)));
   const ColorView& color = problem.color;
@@ -106,30 +104,16 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   if (problem.ignore != nullptr) writer.u32(checksumOf(*problem.ignore));
   const Camera& camera = problem.camera;
   writer.i32(static_cast<std::int32_t>(camera.model));
-  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) writer.f64(value);
-  for (const double value : camera.distortion) writer.f64(value);
-  if (isCahvFamily(camera.model)) {
-    writer.f64(camera.cahv.skew_px);
-    digestVector(camera.cahv.optical_axis, writer);
-    digestVector(camera.cahv.radial, writer);
-    digestVector(camera.cahv.entrance_m, writer);
-    writer.f64(camera.cahv.linearity);
-  }
+  writeOptics(camera, writer);
   const MeshView& mesh = problem.mesh;
   writer.u32(static_cast<std::uint32_t>(mesh.vertices_in_station_m.size()));
   writer.u32(static_cast<std::uint32_t>(mesh.faces.size()));
   writer.u32(checksumOf(mesh));
-  for (const ScenePart& part : mesh.parts) {
-    writer.f64(part.normal_threshold_rad);
-    writer.f64(part.depth_threshold_m);
-    writer.u8(roleByte(part));
-  }
+  writeParts(mesh, writer);
   digestPose(problem.camera_from_station_seed, writer);
-  digestVector(problem.uncertainty.translation_m, writer);
-  digestVector(problem.uncertainty.rotation_rad, writer);
-  digestVector(problem.uncertainty.pivot_in_camera_m, writer);
+  writeUncertainty(problem.uncertainty, writer);
   if (!problem.end_effector_in_camera_m.isZero(0.0))
-    digestVector(problem.end_effector_in_camera_m, writer);
+    writeReals(problem.end_effector_in_camera_m, writer);
 }
 
 std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
@@ -142,8 +126,7 @@ std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
 
 void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer) {
   writer.tag("edges");
-  writer.f64(edges.low_threshold);
-  writer.f64(edges.high_threshold);
+  writeReals({edges.low_threshold, edges.high_threshold}, writer);
   writer.u32(checksumOf(edges.level[0]));  // the other levels follow from this one
 }
 
@@ -154,28 +137,19 @@ void digestRender(const EdgeRender& render, DigestWriter& writer) {
   writer.u32(checksumOf(render.mask));
   writer.i32(render.pixel_count);
   ChecksumWriter pixels;
-  for (const EdgePixel& pixel : render.eachPixel()) {
-    pixels.f32(pixel.depth_m);
-    pixels.i32(pixel.face);
-    pixels.u8(static_cast<std::uint8_t>(pixel.normal_x));
-    pixels.u8(static_cast<std::uint8_t>(pixel.normal_y));
-    pixels.u8(static_cast<std::uint8_t>(pixel.offset));
-    pixels.u8(pixel.kind);
-  }
+  for (const EdgePixel& pixel : render.eachPixel()) writeEdgePixel(pixel, pixels);
   writer.u32(pixels.checksum());
 }
 
 void digestTemplates(const TemplateSet& templates, DigestWriter& writer) {
   writer.tag("templates");
-  writer.i32(templates.side_px);
-  writer.i32(templates.count);
+  writeIntegers({templates.side_px, templates.count}, writer);
   for (std::int32_t i = 0; i < templates.count; ++i) {
-    const Template& item = templates.templates[static_cast<std::size_t>(i)];
-    writer.i32(item.center_x);
-    writer.i32(item.center_y);
+    const Template& item = nth(templates.templates, i);
+    writeIntegers({item.center_x, item.center_y}, writer);
     writer.f32(item.depth_m);
     writer.f32(item.distinctness);
-    digestVector(item.point_in_station_m, writer);
+    writeReals(item.point_in_station_m, writer);
   }
 }
 
@@ -183,25 +157,19 @@ void digestMatches(const MatchSet& matches, DigestWriter& writer) {
   writer.tag("matches");
   writer.i32(matches.count);
   for (std::int32_t i = 0; i < matches.count; ++i) {
-    const Match& match = matches.matches[static_cast<std::size_t>(i)];
+    const Match& match = nth(matches.matches, i);
     writer.u8(match.searched ? 1 : 0);
     if (!match.searched) continue;
-    for (const int value :
-         {match.window.x_min, match.window.y_min, match.window.x_max, match.window.y_max,
-          match.norms.edges, match.norms.empties, match.peak.x, match.peak.y,
-          match.peak.counts.edge_hits, match.peak.counts.empty_hits}) {
-      writer.i32(value);
-    }
+    writeIntegers({match.window.x_min, match.window.y_min, match.window.x_max, match.window.y_max,
+                   match.norms.edges, match.norms.empties, match.peak.x, match.peak.y,
+                   match.peak.counts.edge_hits, match.peak.counts.empty_hits},
+                  writer);
     writer.u8(match.peak.has_second ? 1 : 0);
-    if (match.peak.has_second) {
-      for (const int value :
-           {match.peak.second_x, match.peak.second_y, match.peak.second_counts.edge_hits,
-            match.peak.second_counts.empty_hits}) {
-        writer.i32(value);
-      }
-    }
-    writer.f64(match.x);
-    writer.f64(match.y);
+    if (match.peak.has_second)
+      writeIntegers({match.peak.second_x, match.peak.second_y, match.peak.second_counts.edge_hits,
+                     match.peak.second_counts.empty_hits},
+                    writer);
+    writeReals({match.x, match.y}, writer);
     writer.u8(match.at_border ? 1 : 0);
   }
 }
@@ -209,10 +177,9 @@ void digestMatches(const MatchSet& matches, DigestWriter& writer) {
 void digestPnp(const PnpSolution& solution, DigestWriter& writer) {
   writer.tag("pose");
   digestPose(solution.camera_from_station, writer);
-  writer.i32(solution.inlier_count);
-  writer.i32(solution.samples);
+  writeIntegers({solution.inlier_count, solution.samples}, writer);
   writer.bytes(solution.inlier);
-  for (const double residual_px : solution.residual_px) writer.f64(residual_px);
+  writeReals(solution.residual_px, writer);
   writer.f64(solution.rms_px);
   digestMatrix(solution.covariance, writer);
 }
@@ -220,17 +187,13 @@ void digestPnp(const PnpSolution& solution, DigestWriter& writer) {
 void digestRefinement(const RefinementResult& refinement, DigestWriter& writer) {
   writer.tag("refinement");
   digestPose(refinement.camera_from_station, writer);
-  writer.i32(refinement.sample_count);
-  writer.i32(refinement.found_count);
-  writer.i32(refinement.used_count);
+  writeIntegers({refinement.sample_count, refinement.found_count, refinement.used_count}, writer);
   writer.f64(refinement.rms_px);
   ChecksumWriter samples;
   for (std::int32_t i = 0; i < refinement.sample_count; ++i) {
-    const EdgeSample& sample = refinement.samples[static_cast<std::size_t>(i)];
-    digestVector(sample.point_in_station_m, samples);
-    samples.f64(sample.residual_px);
-    samples.f64(sample.gradient);
-    samples.f64(sample.weight);
+    const EdgeSample& sample = nth(refinement.samples, i);
+    writeReals(sample.point_in_station_m, samples);
+    writeReals({sample.residual_px, sample.gradient, sample.weight}, samples);
   }
   writer.u32(samples.checksum());
   digestMatrix(refinement.covariance, writer);
@@ -247,24 +210,11 @@ void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& w
   }
 }
 
-void digestContours(const ContourEvidence& evidence, DigestWriter& writer) {
-  writer.tag("contours");
-  writer.i32(evidence.places);
-  writer.i32(evidence.outline_places);
-  writer.f64(evidence.place_length_px);
-  writer.f64(evidence.edges_nats);
-  writer.f64(evidence.outline_nats);
-  writer.f64(evidence.expected_nats);
-  writer.f64(evidence.outline_expected_nats);
-  for (const double nats : evidence.quadrant_nats) writer.f64(nats);
-}
-
 void digestEvidence(const PoseEvidence& evidence, DigestWriter& writer) {
   writer.tag("evidence");
   for (const ContourEvidence& view : evidence.contours) digestContours(view, writer);
   writer.f64(evidence.region.nats);
-  writer.i32(evidence.region.lines);
-  writer.i32(evidence.region.separated);
+  writeIntegers({evidence.region.lines, evidence.region.separated}, writer);
 }
 
 void digestHypotheses(std::span<const PoseHypothesis> hypotheses, DigestWriter& writer) {
@@ -275,21 +225,19 @@ void digestHypotheses(std::span<const PoseHypothesis> hypotheses, DigestWriter& 
     writer.u8(static_cast<std::uint8_t>(hypothesis.origin));
     writer.i32(hypothesis.number);
     digestEvidence(hypothesis.evidence, writer);
-    writer.f64(hypothesis.score);
-    writer.f64(hypothesis.probability);
+    writeReals({hypothesis.score, hypothesis.probability}, writer);
   }
 }
 
 void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer) {
   writer.tag("edge width");
-  for (const double width_px : width.width_px) writer.f64(width_px);
+  writeReals(width.width_px, writer);
   for (const std::int32_t places : width.places) writer.i32(places);
 }
 
 void digestFocal(const FocalFit& focal, DigestWriter& writer) {
   writer.tag("focal length");
-  writer.f64(focal.change);
-  writer.f64(focal.sigma);
+  writeReals({focal.change, focal.sigma}, writer);
   writer.u8(focal.determined ? 1 : 0);
 }
 
@@ -298,17 +246,13 @@ void digestCompetingPoses(std::span<const CompetingPose> poses, DigestWriter& wr
   writer.i32(static_cast<std::int32_t>(poses.size()));
   for (const CompetingPose& pose : poses) {
     digestPose(pose.camera_from_station, writer);
-    writer.f64(pose.similarity);
-    writer.f64(pose.margin_nats);
+    writeReals({pose.similarity, pose.margin_nats}, writer);
     writer.u8(pose.mirrored ? 1 : 0);
   }
 }
 
 void digestSupport(const EdgeSupport& support, DigestWriter& writer) {
-  for (const std::int32_t count :
-       {support.rendered, support.covered, support.displaced, support.displaced_covered,
-        support.seen, support.explained, support.displaced_explained})
-    writer.i32(count);
+  writeSupport(support, writer);
 }
 
 }  // namespace boresight

@@ -29,7 +29,6 @@ void digestSupport(const EdgeSupport& support, DigestWriter& writer);
 void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& writer);
 void digestFocal(const FocalFit& focal, DigestWriter& writer);
 void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer);
-void digestContours(const ContourEvidence& evidence, DigestWriter& writer);
 void digestEvidence(const PoseEvidence& evidence, DigestWriter& writer);
 void digestHypotheses(std::span<const PoseHypothesis> hypotheses, DigestWriter& writer);
 void digestCompetingPoses(std::span<const CompetingPose> poses, DigestWriter& writer);

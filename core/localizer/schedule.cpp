@@ -47,7 +47,7 @@ double thresholdAt(const LocalizerOptions& options, int iteration, int level) {
   }
   const bool first = iteration == options.loop.match_iterations;
   const double radius_px = first ? kFirstRadius_px : kLastRadius_px;
-  return radius_px * static_cast<double>(1 << level);
+  return radius_px * levelScale(level);
 }
 
 SeedUncertainty uncertaintyAt(const Seed& seed, const LoopOptions& loop, int iteration,

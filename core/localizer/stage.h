@@ -28,6 +28,10 @@ struct StepReport {
 
   /// A step on a stage inside an iteration.
   static StepReport of(Stage stage, bool stage_complete) { return {stage, stage_complete}; }
+  /// A step of a run that has ended.
+  static StepReport end(bool stage_complete) {
+    return {Stage::kFinished, stage_complete, false, true};
+  }
 };
 
 }  // namespace boresight

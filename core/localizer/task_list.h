@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/nth.h"
 
 namespace boresight {
 
@@ -24,9 +25,9 @@ class TaskList {
   /// Number of tasks in the list.
   int count() const { return count_; }
   /// Whether a task is done; tasks count from 0.
-  bool isDone(int task) const { return done_[static_cast<std::size_t>(task)] != 0; }
+  bool isDone(int task) const { return nth(done_, task) != 0; }
   /// Notes a task as done.
-  void markDone(int task) { done_[static_cast<std::size_t>(task)] = 1; }
+  void markDone(int task) { nth(done_, task) = 1; }
   /// Moves next() to the first task that is not done; false when there is none.
   bool findNext() {
     while (next_ < count_ && isDone(next_)) ++next_;

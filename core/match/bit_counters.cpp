@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/match/bit_rows.h"
+#include "core/match/pixel_words.h"
 
 namespace boresight {
 namespace {

@@ -34,12 +34,19 @@ struct CounterRow {
 /// Rows of counters, and of pixels to be counted, have this many words of slack.
 inline constexpr int kWordPadding = 7;
 
+/// Lists of pixels are padded to a multiple of this with pixels that are zero.
+inline constexpr int kPixelGroup = 4;
+/// The length of a padded list of `count` pixels.
+inline constexpr int paddedPixels(int count) {
+  return (count + kPixelGroup - 1) / kPixelGroup * kPixelGroup;
+}
+
 /// Pixels whose bits are counted: the byte at which each one's row begins, relative to a base.
 struct PixelList {
   const std::int32_t* offsets = nullptr;  ///< bytes, one per pixel
-  int count = 0;        ///< a multiple of 4: padded with offsets that point to zeros
-  int plane_count = 0;  ///< planes that hold the largest sum
-  int shift = 0;        ///< bit within the byte, the same for all (0 ... 7)
+  int count = 0;                          ///< paddedPixels() of their number
+  int plane_count = 0;                    ///< planes that hold the largest sum
+  int shift = 0;                          ///< bit within the byte, the same for all (0 ... 7)
 };
 
 /// A pixel at any bit: its byte offset, its bit within the byte, and whether 1 - bit is counted

@@ -4,13 +4,11 @@
 #include <bit>
 #include <cstddef>
 
+#include "core/base/nth.h"
 #include "core/match/template_bits.h"
 
 namespace boresight {
 namespace {
-
-constexpr int kGroup = 4;
-int padded(int count) { return (count + kGroup - 1) / kGroup * kGroup; }
 
 /// Pixels u of a word with u % shifts == shift.
 std::uint64_t shiftMask(int shift, int shifts) {
@@ -24,15 +22,15 @@ std::uint64_t shiftMask(int shift, int shifts) {
 void EdgePixels::create(int capacity, Arena& arena) {
   // A row always fits: it is the least capacity of a list.
   const int least = kMaxTemplateSide_px;
-  const int size = (capacity > least ? capacity : least) + kMostShifts * (kGroup - 1);
-  offsets_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(size));
+  const int size = (capacity > least ? capacity : least) + kMostShifts * (kPixelGroup - 1);
+  offsets_ = arena.allocate<std::int32_t>(size);
 }
 
 int EdgePixels::countRows(const TemplateView& view, int shifts, int first_row) {
-  const int room = static_cast<int>(offsets_.size()) - kMostShifts * (kGroup - 1);
+  const int room = static_cast<int>(offsets_.size()) - kMostShifts * (kPixelGroup - 1);
   std::array<std::uint64_t, kMostShifts> masks{};
   for (int shift = 0; shift < shifts; ++shift) {
-    masks[static_cast<std::size_t>(shift)] = shiftMask(shift, shifts);
+    nth(masks, shift) = shiftMask(shift, shifts);
   }
   count_.fill(0);
   int total = 0, v = first_row;
@@ -61,20 +59,20 @@ int EdgePixels::list(const TemplateView& view, const TestBand& band, int first_r
   int first = 0;
   for (std::size_t k = 0; k < kMostShifts; ++k) {
     first_[k] = next[k] = first;
-    first += padded(count_[k]);
+    first += paddedPixels(count_[k]);
   }
   for (int v = first_row; v < end_row; ++v) {
     for (int word = 0; 64 * word < view.side_px; ++word) {
       for (std::uint64_t bits = edgeWord(view, v, word); bits != 0; bits &= bits - 1) {
         const int u = 64 * word + std::countr_zero(bits);
-        int& at = next[static_cast<std::size_t>(u % shifts)];
-        offsets_[static_cast<std::size_t>(at++)] = band.offsetOf(u, v);
+        int& at = nth(next, u % shifts);
+        nth(offsets_, at++) = band.offsetOf(u, v);
       }
     }
   }
   for (std::size_t k = 0; k < kMostShifts; ++k) {
-    for (; next[k] < first_[k] + padded(count_[k]); ++next[k]) {
-      offsets_[static_cast<std::size_t>(next[k])] = band.zeroOffset();
+    for (; next[k] < first_[k] + paddedPixels(count_[k]); ++next[k]) {
+      nth(offsets_, next[k]) = band.zeroOffset();
     }
   }
   return end_row;
@@ -82,7 +80,7 @@ int EdgePixels::list(const TemplateView& view, const TestBand& band, int first_r
 
 PixelList EdgePixels::pixels(int shift) const {
   const std::size_t k = static_cast<std::size_t>(shift);
-  return {offsets_.data() + first_[k], padded(count_[k]), planesFor(count_[k]), shift};
+  return {offsets_.data() + first_[k], paddedPixels(count_[k]), planesFor(count_[k]), shift};
 }
 
 }  // namespace boresight

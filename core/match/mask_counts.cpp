@@ -6,13 +6,13 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/match/bit_rows.h"
+#include "core/base/nth.h"
+#include "core/match/pixel_words.h"
 #include "core/match/template_bits.h"
 
 namespace boresight {
 namespace {
 
-constexpr int kGroup = 4;
 constexpr int kMaxSingles = 4096;
 // Prefix sums over 64 offsets of run ends must stay below 65536 (planesToPrefixSums).
 constexpr int kMaxRunEnds = 1020;
@@ -64,22 +64,17 @@ int onesBetween(const std::uint8_t* row, int begin, int end) {
   return ones;
 }
 
-int padded(int count) { return (count + kGroup - 1) / kGroup * kGroup; }
-
 int padPixels(std::span<SignedPixel> pixels, int count, int zero_offset) {
   int end = count;
-  for (; end % kGroup != 0; ++end) {
-    pixels[static_cast<std::size_t>(end)] = makeSignedPixel(zero_offset, 0, false);
+  for (; end % kPixelGroup != 0; ++end) {
+    nth(pixels, end) = makeSignedPixel(zero_offset, 0, false);
   }
   return end;
 }
 
-std::span<std::uint64_t> allocatePlanes(int planes, int words, Arena& arena, CounterRow& row) {
-  const std::span<std::uint64_t> memory = arena.allocate<std::uint64_t>(
-      static_cast<std::size_t>(planes) * static_cast<std::size_t>(words));
-  row.words = memory.data();
-  row.stride = words;
-  return memory;
+CounterRow allocatePlanes(int words, Arena& arena) {
+  const auto count = static_cast<std::size_t>(kBorderPlanes * words);
+  return {arena.allocate<std::uint64_t>(count).data(), words};
 }
 
 }  // namespace
@@ -87,19 +82,19 @@ std::span<std::uint64_t> allocatePlanes(int planes, int words, Arena& arena, Cou
 void MaskCounts::create(int max_words, const BitKernels& kernels, Arena& arena) {
   kernels_ = &kernels;
   const std::size_t offsets = static_cast<std::size_t>(lanesBefore(max_words));
-  singles_ = arena.allocate<SignedPixel>(kMaxSingles + kGroup);
-  run_ends_ = arena.allocate<SignedPixel>(kMaxRunEnds + kGroup);
+  singles_ = arena.allocate<SignedPixel>(kMaxSingles + kPixelGroup);
+  run_ends_ = arena.allocate<SignedPixel>(kMaxRunEnds + kPixelGroup);
   runs_ = arena.allocate<Run>(kMaxRunEnds / 2);
-  chunk_ = arena.allocate<SignedPixel>(kChunk + kGroup);
-  allocatePlanes(kBorderPlanes, max_words, arena, single_planes_);
-  allocatePlanes(kBorderPlanes, max_words, arena, run_planes_);
+  chunk_ = arena.allocate<SignedPixel>(kChunk + kPixelGroup);
+  single_planes_ = allocatePlanes(max_words, arena);
+  run_planes_ = allocatePlanes(max_words, arena);
   differences_ = arena.allocate<std::int32_t>(offsets);
   under_singles_ = arena.allocate<std::uint16_t>(offsets);
   under_runs_ = arena.allocate<std::uint16_t>(offsets);
-  run_totals_ = arena.allocate<std::uint32_t>(static_cast<std::size_t>(max_words));
+  run_totals_ = arena.allocate<std::uint32_t>(max_words);
   counts_ = arena.allocate<std::int32_t>(offsets);
   small_counts_ = arena.allocate<std::int16_t>(offsets);
-  least_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(max_words));
+  least_ = arena.allocate<std::int32_t>(max_words);
 }
 
 void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
@@ -129,8 +124,7 @@ void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
   padPixels(run_ends_, run_end_count_, zero_offset_);
   is_small_ = mask_pixels <= std::numeric_limits<std::int16_t>::max();
   for (int x = 0; x < kLanes; ++x) {
-    slope_of_lane_[static_cast<std::size_t>(laneIndex(x))] =
-        static_cast<std::uint16_t>(run_end_negatives_ * x);
+    nth(slope_of_lane_, laneIndex(x)) = static_cast<std::uint16_t>(run_end_negatives_ * x);
   }
   // Borders that do not occur stay zero.
   std::fill(under_singles_.begin(), under_singles_.end(), std::uint16_t{0});
@@ -163,20 +157,16 @@ void MaskCounts::addBorder(int v, int begin, int end, int sign) {
   }
   if (!by_ends) {
     for (int u = begin; u < end; ++u) {
-      singles_[static_cast<std::size_t>(single_count_++)] =
-          makeSignedPixel(v * stride_ + u / 8, u % 8, sign < 0);
+      nth(singles_, single_count_++) = makeSignedPixel(v * stride_ + u / 8, u % 8, sign < 0);
       if (sign < 0) ++single_negatives_;
     }
     return;
   }
   // From x to x + 1 the run gains pixel x + end and loses pixel x + begin.
-  runs_[static_cast<std::size_t>(run_count_++)] =
-      Run{static_cast<std::int16_t>(v), static_cast<std::int16_t>(begin),
-          static_cast<std::int16_t>(end), static_cast<std::int16_t>(sign)};
-  run_ends_[static_cast<std::size_t>(run_end_count_++)] =
-      makeSignedPixel(v * stride_ + end / 8, end % 8, sign < 0);
-  run_ends_[static_cast<std::size_t>(run_end_count_++)] =
-      makeSignedPixel(v * stride_ + begin / 8, begin % 8, sign > 0);
+  nth(runs_, run_count_++) = Run{static_cast<std::int16_t>(v), static_cast<std::int16_t>(begin),
+                                 static_cast<std::int16_t>(end), static_cast<std::int16_t>(sign)};
+  nth(run_ends_, run_end_count_++) = makeSignedPixel(v * stride_ + end / 8, end % 8, sign < 0);
+  nth(run_ends_, run_end_count_++) = makeSignedPixel(v * stride_ + begin / 8, begin % 8, sign > 0);
   ++run_end_negatives_;
 }
 
@@ -187,7 +177,7 @@ int MaskCounts::work() const {
 int MaskCounts::runSum(const TestBand& band, const std::uint8_t* rows) const {
   int sum = 0;
   for (int k = 0; k < run_count_; ++k) {
-    const Run& run = runs_[static_cast<std::size_t>(k)];
+    const Run& run = nth(runs_, k);
     sum += run.sign * onesBetween(rows + std::ptrdiff_t{band.stride()} * run.v, run.begin, run.end);
   }
   return sum;
@@ -200,13 +190,14 @@ void MaskCounts::advanceRow(const TestBand& band, const std::uint8_t* rows, int 
   }
   if (single_count_ > 0) {
     single_planes_.plane_count = planesFor(single_count_);
-    kernels_->countSignedPixels(rows, singles_.data(), padded(single_count_), words,
+    kernels_->countSignedPixels(rows, singles_.data(), paddedPixels(single_count_), words,
                                 single_planes_);
     kernels_->planesToLanes(single_planes_, words, under_singles_.data());
   }
   if (run_end_count_ > 0) {
     run_planes_.plane_count = planesFor(run_end_count_);
-    kernels_->countSignedPixels(rows, run_ends_.data(), padded(run_end_count_), words, run_planes_);
+    kernels_->countSignedPixels(rows, run_ends_.data(), paddedPixels(run_end_count_), words,
+                                run_planes_);
     kernels_->planesToPrefixSums(run_planes_, words, under_runs_.data(), run_totals_.data());
   }
   int run_sum = runSum(band, rows);
@@ -219,8 +210,7 @@ void MaskCounts::advanceRow(const TestBand& band, const std::uint8_t* rows, int 
     } else {
       applyChanges(word, singles, runs, constant, counts_.data() + lanesBefore(word));
     }
-    run_sum +=
-        static_cast<int>(run_totals_[static_cast<std::size_t>(word)]) - kLanes * run_end_negatives_;
+    run_sum += static_cast<int>(nth(run_totals_, word)) - kLanes * run_end_negatives_;
   }
 }
 
@@ -237,7 +227,7 @@ void MaskCounts::applyChanges(int word, const std::uint16_t* singles, const std:
     counts[i] = count;
     least = std::min(least, count);
   }
-  least_[static_cast<std::size_t>(word)] = least;
+  nth(least_, word) = least;
 }
 
 /// Adds the chunk of run ends to the differences between neighbouring offsets and empties it.
@@ -263,10 +253,8 @@ void MaskCounts::computeRow(const TestBand& band, const std::uint8_t* rows, int 
     forEachRun(mask, rowWords(view_.side_px), [&](int begin, int end) {
       count += onesBetween(rows + row_offset, begin, end);
       if (chunk_count_ + 2 > kChunk) addRunEnds(rows, words);
-      chunk_[static_cast<std::size_t>(chunk_count_++)] =
-          makeSignedPixel(row_offset + end / 8, end % 8, false);
-      chunk_[static_cast<std::size_t>(chunk_count_++)] =
-          makeSignedPixel(row_offset + begin / 8, begin % 8, true);
+      nth(chunk_, chunk_count_++) = makeSignedPixel(row_offset + end / 8, end % 8, false);
+      nth(chunk_, chunk_count_++) = makeSignedPixel(row_offset + begin / 8, begin % 8, true);
       ++chunk_negatives_;
     });
   }
@@ -284,7 +272,7 @@ void MaskCounts::computeRow(const TestBand& band, const std::uint8_t* rows, int 
       least = std::min(least, count);
       count += differences_[at];
     }
-    least_[static_cast<std::size_t>(word)] = least;
+    nth(least_, word) = least;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/nth.h"
 #include "core/match/bit_counters.h"
 #include "core/match/test_band.h"
 #include "core/match/whs_types.h"
@@ -37,7 +38,7 @@ class MaskCounts {
     return is_small_ ? small_counts_[at] : counts_[at];
   }
   /// Least count of a word's 64 offsets.
-  std::int32_t least(int word) const { return least_[static_cast<std::size_t>(word)]; }
+  std::int32_t least(int word) const { return nth(least_, word); }
   /// Pixels to be counted for a row of offsets, as a measure of work.
   int work() const;
 

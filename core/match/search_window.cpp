@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/match/rotation_bounds.h"
+#include "core/render/rounding.h"
 
 namespace boresight {
 namespace {
@@ -34,20 +36,12 @@ struct DirectionBounds {
   }
 };
 
-struct CornerBounds {
-  Eigen::Vector2d low = Eigen::Vector2d::Zero();
-  Eigen::Vector2d high = Eigen::Vector2d::Zero();
-};
-
 bool isUsable(const Eigen::Vector3d& point, const SeedUncertainty& uncertainty) {
-  for (int i = 0; i < 3; ++i) {
-    const double translation = uncertainty.translation_m[i];
-    const double rotation = uncertainty.rotation_rad[i];
-    if (!isFinite(point[i]) || !isFinite(uncertainty.pivot_in_camera_m[i])) return false;
-    if (!(translation >= 0.0) || !isFinite(translation)) return false;
-    if (!(rotation >= 0.0) || rotation > kPi) return false;
-  }
-  return point.z() > 0.0;
+  const Eigen::Vector3d& translation_m = uncertainty.translation_m;
+  const Eigen::Vector3d& rotation_rad = uncertainty.rotation_rad;
+  return point.allFinite() && point.z() > 0.0 && uncertainty.pivot_in_camera_m.allFinite() &&
+         translation_m.allFinite() && translation_m.minCoeff() >= 0.0 && rotation_rad.allFinite() &&
+         rotation_rad.minCoeff() >= 0.0 && rotation_rad.maxCoeff() <= kPi;
 }
 
 /// The places p' = R d + c + t of a point for the rotations of a box and |t_i| <= translation_i.
@@ -121,7 +115,7 @@ bool boundDirections(const Eigen::Vector3d& point_in_camera_m, const SeedUncerta
   const Eigen::Vector3d& widest = uncertainty.rotation_rad;
   const std::array<int, 3> parts{partsFor(widest[0]), partsFor(widest[1]), partsFor(widest[2])};
   const auto corner = [&](int axis, int k) {
-    return widest[axis] * (2.0 * k / parts[static_cast<std::size_t>(axis)] - 1.0);
+    return widest[axis] * (2.0 * k / nth(parts, axis) - 1.0);
   };
   for (int i = 0; i < parts[0]; ++i) {
     for (int j = 0; j < parts[1]; ++j) {
@@ -204,15 +198,14 @@ Eigen::Vector2d pixelTowards(const Camera& camera, const Eigen::Vector2d& inside
 /// that is allowed for where the extreme may lie between samples, and the whole distance between
 /// samples where the side leaves the valid field.
 void extendBySide(const Camera& camera, const Eigen::Vector2d& inside, const Eigen::Vector2d& from,
-                  const Eigen::Vector2d& to, CornerBounds& pixels) {
+                  const Eigen::Vector2d& to, Eigen::AlignedBox2d& pixels) {
   constexpr std::size_t kSegments = 4;
   std::array<Eigen::Vector2d, kSegments + 1> samples;
   bool pulled_in = false;
   for (std::size_t k = 0; k <= kSegments; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(kSegments);
     samples[k] = pixelTowards(camera, inside, from + share * (to - from), pulled_in);
-    pixels.low = pixels.low.cwiseMin(samples[k]);
-    pixels.high = pixels.high.cwiseMax(samples[k]);
+    pixels.extend(samples[k]);
   }
   for (int axis = 0; axis < 2; ++axis) {
     double bend = 0.0;
@@ -224,10 +217,9 @@ void extendBySide(const Camera& camera, const Eigen::Vector2d& inside, const Eig
       const double change = std::abs(samples[k][axis] - samples[k - 1][axis]);
       double slack = change < bend ? 0.25 * bend : 0.0;
       if (pulled_in) slack = change;
-      pixels.low[axis] =
-          std::min(pixels.low[axis], std::min(samples[k - 1][axis], samples[k][axis]) - slack);
-      pixels.high[axis] =
-          std::max(pixels.high[axis], std::max(samples[k - 1][axis], samples[k][axis]) + slack);
+      const auto [low, high] = std::minmax(samples[k - 1][axis], samples[k][axis]);
+      pixels.min()[axis] = std::min(pixels.min()[axis], low - slack);
+      pixels.max()[axis] = std::max(pixels.max()[axis], high + slack);
     }
   }
 }
@@ -249,9 +241,10 @@ void seeFromPupil(const Camera& camera, Eigen::Vector3d& point_in_camera_m,
 /// Bounds of the pixels of a point. The Jacobian of every distortion model is regular in the valid
 /// field, which it maps one to one: extremes lie on the sides of the polygon.
 bool boundPixels(const Camera& camera, Eigen::Vector3d point_in_camera_m,
-                 SeedUncertainty uncertainty, CornerBounds& pixels) {
-  if (!project(camera, point_in_camera_m, pixels.low)) return false;
-  pixels.high = pixels.low;
+                 SeedUncertainty uncertainty, Eigen::AlignedBox2d& pixels) {
+  Eigen::Vector2d pixel;
+  if (!project(camera, point_in_camera_m, pixel)) return false;
+  pixels.extend(pixel);
   seeFromPupil(camera, point_in_camera_m, uncertainty);
   Eigen::Vector2d seen;
   if (pupilMoves(camera) && !projectDirection(camera, point_in_camera_m, seen)) return false;
@@ -264,8 +257,8 @@ bool boundPixels(const Camera& camera, Eigen::Vector3d point_in_camera_m,
   if (camera.model == CameraModel::kPinhole) {
     if (!boundDirections(point_in_camera_m, uncertainty, bounds)) return false;
     const auto& h = bounds.half_planes;
-    pixels.high = {camera.fx * h[0].bound + camera.cx, camera.fy * h[1].bound + camera.cy};
-    pixels.low = {camera.cx - camera.fx * h[2].bound, camera.cy - camera.fy * h[3].bound};
+    pixels.max() = {camera.fx * h[0].bound + camera.cx, camera.fy * h[1].bound + camera.cy};
+    pixels.min() = {camera.cx - camera.fx * h[2].bound, camera.cy - camera.fy * h[3].bound};
     return true;
   }
   addOblique(inside, bounds);
@@ -278,11 +271,6 @@ bool boundPixels(const Camera& camera, Eigen::Vector3d point_in_camera_m,
   return true;
 }
 
-int floorWithin(double value, int low, int high) {
-  return static_cast<int>(
-      std::floor(std::clamp(value, static_cast<double>(low), static_cast<double>(high))));
-}
-
 }  // namespace
 
 SearchWindow searchWindow(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
@@ -291,16 +279,16 @@ SearchWindow searchWindow(const Camera& camera, const Eigen::Vector3d& point_in_
   const int half = template_side_px / 2;
   if (half < 1 || !isUsable(point_in_camera_m, uncertainty)) return {};
   if (camera.width < template_side_px || camera.height < template_side_px) return {};
-  CornerBounds pixels;
+  Eigen::AlignedBox2d pixels;
   if (!boundPixels(camera, point_in_camera_m, uncertainty, pixels)) return {};
 
   // Rounded outwards, so that the window holds the pixels on both sides of every place; one pixel
   // beyond the clipped range marks a bound outside.
   SearchWindow window;
-  window.x_min = floorWithin(pixels.low.x() - kRounding_px, -1, camera.width + 1);
-  window.y_min = floorWithin(pixels.low.y() - kRounding_px, -1, camera.height + 1);
-  window.x_max = floorWithin(pixels.high.x() + kRounding_px, -2, camera.width + 1) + 1;
-  window.y_max = floorWithin(pixels.high.y() + kRounding_px, -2, camera.height + 1) + 1;
+  window.x_min = floorClamped(pixels.min().x() - kRounding_px, -1, camera.width + 1);
+  window.y_min = floorClamped(pixels.min().y() - kRounding_px, -1, camera.height + 1);
+  window.x_max = floorClamped(pixels.max().x() + kRounding_px, -2, camera.width + 1) + 1;
+  window.y_max = floorClamped(pixels.max().y() + kRounding_px, -2, camera.height + 1) + 1;
   window.x_min = std::max(window.x_min, half);
   window.y_min = std::max(window.y_min, half);
   window.x_max = std::min(window.x_max, camera.width - half);

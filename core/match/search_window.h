@@ -13,6 +13,8 @@ struct SearchWindow {
   int x_min = 0, y_min = 0, x_max = -1, y_max = -1;  ///< px of the level
   /// Whether it holds no pixel.
   bool empty() const { return x_max < x_min || y_max < y_min; }
+  /// Whether a pixel lies on its border, or beyond.
+  bool endsAt(int x, int y) const { return x <= x_min || x >= x_max || y <= y_min || y >= y_max; }
   /// px.
   int width() const { return x_max - x_min + 1; }
   /// px.

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/match/bit_rows.h"
+#include "core/match/pixel_words.h"
 #include "core/match/whs_types.h"
 
 namespace boresight {

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/match/bit_counters.h"
-#include "core/match/bit_rows.h"
+#include "core/match/pixel_words.h"
 
 namespace boresight {
 namespace {
@@ -37,7 +37,7 @@ int bytesFor(int side, int words) {
 void TestBand::create(int max_side, int max_words, Arena& arena) {
   const int bytes =
       std::max(bytesFor(max_side, max_words), bytesFor(std::min(max_side, kSmallSide), max_words));
-  bytes_ = arena.allocate<std::uint8_t>(static_cast<std::size_t>(bytes));
+  bytes_ = arena.allocate<std::uint8_t>(bytes);
 }
 
 void TestBand::shape(int side, int words, int most_copies) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/match/bit_rows.h"
+#include "core/match/pixel_words.h"
 #include "core/match/template_bits.h"
 
 namespace boresight {

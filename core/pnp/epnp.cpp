@@ -217,12 +217,10 @@ class Epnp {
   bool poseOf(const Factors& beta, Pose& camera_from_station) const {
     const Eigen::Matrix<double, kUnknowns, 1> controls = null_space_ * beta;
     if (!controls.allFinite()) return false;
-    double depth = 0.0;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     const double count = static_cast<double>(points_.size());
     for (const Eigen::Vector3d& point : points_) middle += placeOf(controls, point) / count;
-    depth = middle.z();
-    const double sign = depth < 0.0 ? -1.0 : 1.0;
+    const double sign = middle.z() < 0.0 ? -1.0 : 1.0;
     Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
     for (const Eigen::Vector3d& point : points_)
       cross +=
@@ -253,10 +251,10 @@ class Epnp {
 
   /// Sum of squared residuals in the plane z = 1; false when a point is behind the camera.
   bool measure(const Pose& camera_from_station, double& squares) const {
-    const Eigen::Matrix3d rotation = camera_from_station.matrix();
+    const PoseMatrix to_camera(camera_from_station);
     squares = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Eigen::Vector3d p = rotation * points_[i] + camera_from_station.translation_m;
+      const Eigen::Vector3d p = to_camera * points_[i];
       if (!(p.z() > 0.0)) return false;
       const Eigen::Vector3d& b = bearing_[i];
       const double dx = p.x() / p.z() - b.x() / b.z();

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -65,7 +67,7 @@ bool scaleToUnitDiagonal(const Matrix6d& information, double damping, Factors& f
   for (int i = 0; i < 6; ++i) {
     const double diagonal = information(i, i);
     if (!(diagonal > 0.0 && diagonal < 1e300)) return false;  // nor when it is not a number
-    f.scale[static_cast<std::size_t>(i)] = 1.0 / std::sqrt(diagonal);
+    nth(f.scale, i) = 1.0 / std::sqrt(diagonal);
   }
   for (std::size_t i = 0; i < 6; ++i) {
     f.order[i] = i;
@@ -122,15 +124,14 @@ double NormalEquations::cost() const {
 NormalEquations reprojectionEquations(std::span<const Correspondence> correspondences,
                                       std::span<const std::uint8_t> use, const Camera& camera,
                                       const Pose& camera_from_station) {
-  const Eigen::Matrix3d rotation = camera_from_station.matrix();
+  const PoseMatrix to_camera(camera_from_station);
   NormalEquations equations;
   Sums sums;
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
     if (!use.empty() && use[i] == 0) continue;
     const Correspondence& item = correspondences[i];
     if (!isUsable(item)) continue;
-    const Eigen::Vector3d point =
-        rotation * item.point_in_station_m + camera_from_station.translation_m;
+    const Eigen::Vector3d point = to_camera * item.point_in_station_m;
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> a;
     if (!projectWithJacobian(camera, point, pixel, a)) {
@@ -151,7 +152,7 @@ NormalEquations reprojectionEquations(std::span<const Correspondence> correspond
   }
   std::size_t k = 0;
   for (int i = 0; i < 6; ++i) {
-    equations.gradient[i] = sums.g[static_cast<std::size_t>(i)];
+    equations.gradient[i] = nth(sums.g, i);
     for (int j = 0; j <= i; ++j) equations.information(i, j) = sums.h[k++];
   }
   return equations;
@@ -184,6 +185,11 @@ Matrix6d adjointOf(const Pose& a_from_b) {
   adjoint.bottomLeftCorner<3, 3>() = crossMatrix(a_from_b.translation_m) * rotation;
   adjoint.bottomRightCorner<3, 3>() = rotation;
   return adjoint;
+}
+
+Matrix6d covarianceIn(const Pose& a_from_b, const Matrix6d& covariance_in_b) {
+  const Matrix6d adjoint = adjointOf(a_from_b);
+  return adjoint * covariance_in_b * adjoint.transpose();
 }
 
 NormalEquations inFirst(const NormalEquations& equations, const Pose& camera_from_first) {

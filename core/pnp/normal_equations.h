@@ -43,6 +43,8 @@ NormalEquations reprojectionEquations(std::span<const Correspondence> correspond
 /// brings perturbations of poses b_from_station to those of a_from_station. With R, t of a_from_b
 /// its rows are [R, 0] (rotation) and [[t]x R, R] (translation).
 Matrix6d adjointOf(const Pose& a_from_b);
+/// The covariance of perturbations in frame b as one in frame a.
+Matrix6d covarianceIn(const Pose& a_from_b, const Matrix6d& covariance_in_b);
 /// Equations in the perturbation of `camera`'s pose as equations in that of `first`'s:
 /// A' H A and A' g with A = adjointOf(camera_from_first). Sums and counts stay.
 NormalEquations inFirst(const NormalEquations& equations, const Pose& camera_from_first);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/pnp/epnp.h"
 #include "core/pnp/refine_pose.h"
 
@@ -33,41 +34,28 @@ constexpr double kPriorFactor = 3.0;
 constexpr int kRefineSteps = 20;
 constexpr int kMostRedraws = 32;
 
-/// A pose ready to be applied to many points.
-struct Transform {
-  Eigen::Matrix3d rotation;
-  Eigen::Vector3d translation_m;
-  Transform() = default;
-  explicit Transform(const Pose& pose)
-      : rotation(pose.matrix()), translation_m(pose.translation_m) {}
-};
-
 /// The pose of the first view, ready to be applied in each of them.
 class Transforms {
  public:
   Transforms(std::span<const PnpView> views, const Pose& first_from_station) : views_(views) {
     for (std::size_t v = 0; v < views.size(); ++v)
-      transform_[v] = Transform(poseOfView(views, v, first_from_station));
+      transform_[v] = PoseMatrix(poseOfView(views, v, first_from_station));
   }
-  const Transform& of(std::size_t view) const { return transform_[view]; }
-  double squaredResidual(std::span<const Correspondence> correspondences, std::size_t i) const;
+  const PoseMatrix& of(std::size_t view) const { return transform_[view]; }
+  /// Squared distance between pixel and projection; 1e12 px^2 where a point does not project.
+  double squaredResidual(std::span<const Correspondence> correspondences, std::size_t i) const {
+    const std::size_t view = viewOf(views_, i);
+    const Correspondence& item = correspondences[i];
+    Eigen::Vector2d projection;
+    if (!project(*views_[view].camera, transform_[view] * item.point_in_station_m, projection))
+      return kMissingResidual_px * kMissingResidual_px;
+    return (item.pixel - projection).squaredNorm();
+  }
 
  private:
   std::span<const PnpView> views_;
-  std::array<Transform, kMaxPnpViews> transform_;
+  std::array<PoseMatrix, kMaxPnpViews> transform_;
 };
-
-/// Squared distance between the pixel and the projection; 1e12 px^2 where it does not project.
-double squaredResidualOf(const Transform& camera_from_station, const Camera& camera,
-                         const Correspondence& item) {
-  const Eigen::Vector3d point_in_camera_m =
-      camera_from_station.rotation * item.point_in_station_m + camera_from_station.translation_m;
-  Eigen::Vector2d projection;
-  if (!project(camera, point_in_camera_m, projection)) {
-    return kMissingResidual_px * kMissingResidual_px;
-  }
-  return (item.pixel - projection).squaredNorm();
-}
 
 /// Unit vector from the camera's centre towards the point seen by a pixel. With a moving pupil it
 /// depends on the point's depth; the hypothesis gives the depth accurately enough for a sample (a
@@ -84,12 +72,6 @@ bool bearingOf(const Camera& camera, const Correspondence& item, const Pose& cam
   }
   bearing.normalize();
   return true;
-}
-
-double Transforms::squaredResidual(std::span<const Correspondence> correspondences,
-                                   std::size_t i) const {
-  const std::size_t view = viewOf(views_, i);
-  return squaredResidualOf(transform_[view], *views_[view].camera, correspondences[i]);
 }
 
 /// base^exponent by squaring: the same bits everywhere, unlike pow and log.
@@ -185,14 +167,12 @@ void PnpRansac::listUsable() {
     Eigen::Vector2d place = item.pixel;
     Eigen::Vector2d predicted;
     const std::size_t view = viewOf(views_, i);
-    const Transform& transform = transforms.of(view);
-    if (guided && project(*views_[view].camera,
-                          transform.rotation * item.point_in_station_m + transform.translation_m,
-                          predicted)) {
+    if (guided &&
+        project(*views_[view].camera, transforms.of(view) * item.point_in_station_m, predicted)) {
       place = predicted;
     }
-    usable_[static_cast<std::size_t>(usable_count_)] = static_cast<std::int32_t>(i);
-    place_px_[static_cast<std::size_t>(usable_count_)] = place;
+    nth(usable_, usable_count_) = static_cast<std::int32_t>(i);
+    nth(place_px_, usable_count_) = place;
     ++usable_count_;
   }
 }
@@ -223,11 +203,11 @@ Status PnpRansac::finish(Status status) {
 }
 
 std::size_t PnpRansac::viewOfUsable(std::int32_t k) const {
-  return viewOf(views_, static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)]));
+  return viewOf(views_, static_cast<std::size_t>(nth(usable_, k)));
 }
 
 const Correspondence& PnpRansac::usable(std::int32_t k) const {
-  return correspondences_[static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)])];
+  return nth(correspondences_, nth(usable_, k));
 }
 
 int PnpRansac::sampleSize() const {
@@ -328,7 +308,7 @@ bool PnpRansac::score(const Pose& camera_from_station, double limit, Score& resu
   double cost = 0.0;
   std::int32_t inliers = 0;
   for (std::int32_t k = 0; k < usable_count_; ++k) {
-    const auto i = static_cast<std::size_t>(usable_[static_cast<std::size_t>(k)]);
+    const auto i = static_cast<std::size_t>(nth(usable_, k));
     const double squared = transforms.squaredResidual(correspondences_, i);
     const bool inside = squared <= largest;  // false for a NaN
     inliers += inside ? 1 : 0;

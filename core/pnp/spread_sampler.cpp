@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -43,12 +45,12 @@ SpreadSampler::Sample SpreadSampler::drawDistinct() {
     const std::uint32_t left = places - static_cast<std::uint32_t>(i);
     auto index = static_cast<std::int32_t>(random_.below(left));
     int slot = 0;
-    for (; slot < i && index >= taken[static_cast<std::size_t>(slot)]; ++slot) ++index;
+    for (; slot < i && index >= nth(taken, slot); ++slot) ++index;
     for (int k = i; k > slot; --k) {
-      taken[static_cast<std::size_t>(k)] = taken[static_cast<std::size_t>(k - 1)];
+      nth(taken, k) = nth(taken, k - 1);
     }
-    taken[static_cast<std::size_t>(slot)] = index;
-    sample[static_cast<std::size_t>(i)] = index;
+    nth(taken, slot) = index;
+    nth(sample, i) = index;
   }
   return sample;
 }
@@ -57,7 +59,7 @@ bool SpreadSampler::isSpread(const Sample& sample) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (int i = 0; i < size_; ++i) {
-    const auto index = static_cast<std::size_t>(sample[static_cast<std::size_t>(i)]);
+    const auto index = static_cast<std::size_t>(nth(sample, i));
     const Eigen::Vector2d d = place_px_[index] - center_px_;
     sum += d;
     xx += d.x() * d.x();

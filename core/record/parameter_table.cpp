@@ -10,8 +10,7 @@
 namespace boresight {
 namespace {
 
-constexpr std::array<std::uint8_t, kParameterMagicBytes> kMagic = {'B', 'O', 'R', 'S',
-                                                                   'P', 'A', 'R', 'M'};
+constexpr std::array<std::uint8_t, 8> kMagic = {'B', 'O', 'R', 'S', 'P', 'A', 'R', 'M'};
 constexpr std::size_t kChecksumBytes = 4;
 
 void writeTable(const LocalizerOptions& options, std::size_t size, ByteWriter& writer) {
@@ -39,17 +38,12 @@ std::size_t encodeParameters(const LocalizerOptions& options, std::span<std::uin
 }
 
 ProblemCheck decodeParameters(std::span<const std::uint8_t> bytes, LocalizerOptions& options) {
-  if (!isParameterTable(bytes)) return {ProblemFault::kNotAProblem, nullptr};
-  ByteReader header(bytes.subspan(kMagic.size()));
-  const std::uint32_t version = header.u32();
-  const std::uint32_t size = header.u32();
-  if (header.failed()) return {ProblemFault::kNotAProblem, nullptr};
-  if (version != kParameterVersion) return {ProblemFault::kVersion, nullptr};
-  if (size != bytes.size() || header.left() < kChecksumBytes) return {ProblemFault::kSize, nullptr};
+  const ProblemFault fault = checkHeader(bytes, kMagic, kParameterVersion, kChecksumBytes);
+  if (fault != ProblemFault::kNone) return {fault, nullptr};
   const std::span<const std::uint8_t> summed = bytes.first(bytes.size() - kChecksumBytes);
   if (ByteReader(bytes.last(kChecksumBytes)).u32() != crc32(summed))
     return {ProblemFault::kChecksum, nullptr};
-  ByteReader reader(summed.subspan(summed.size() - header.left() + kChecksumBytes));
+  ByteReader reader(summed.subspan(headerBytes(kMagic)));
   LocalizerOptions read;
   ProblemCheck check = readOptions(reader, read);
   if (check.fault == ProblemFault::kNone && (reader.failed() || reader.left() > 0))

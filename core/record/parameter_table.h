@@ -16,7 +16,6 @@ namespace boresight {
 ///     options, as in an encoded problem (writeOptions)
 ///     u32 CRC-32 of all before
 inline constexpr std::uint32_t kParameterVersion = 1;
-inline constexpr std::size_t kParameterMagicBytes = 8;
 
 /// Whether the bytes begin with the magic of a table.
 bool isParameterTable(std::span<const std::uint8_t> bytes);

@@ -10,13 +10,14 @@
 
 #include "core/base/bytes.h"
 #include "core/base/digest.h"
+#include "core/base/enum_name.h"
+#include "core/localizer/value_writers.h"
 #include "core/pnp/correspondence.h"
 
 namespace boresight {
 namespace {
 
 constexpr std::array<std::uint8_t, 8> kProblemMagic = {'B', 'O', 'R', 'S', 'I', 'G', 'H', 'T'};
-constexpr std::size_t kHeaderBytes = kProblemMagic.size() + 8;
 constexpr std::size_t kDigestBytes = 32;
 
 std::string_view bytesAsText(std::span<const std::uint8_t> bytes) {
@@ -31,47 +32,11 @@ std::array<std::uint8_t, kDigestBytes> checksumOf(std::span<const std::uint8_t> 
 
 // -- Writing --
 
-void writeLens(const CahvLens& lens, ByteWriter& writer) {
-  writer.f64(lens.skew_px);
-  writer.f64s({lens.optical_axis.data(), 3});
-  writer.f64s({lens.radial.data(), 3});
-  writer.f64s({lens.entrance_m.data(), 3});
-  writer.f64(lens.linearity);
-}
-
-void writeCamera(const Camera& camera, ByteWriter& writer) {
-  writer.i32(static_cast<std::int32_t>(camera.model));
-  writer.i32(camera.width);
-  writer.i32(camera.height);
-  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) writer.f64(value);
-  for (const double value : camera.distortion) writer.f64(value);
-  if (isCahvFamily(camera.model)) writeLens(camera.cahv, writer);
-}
-
-void writeSeed(const LocalizationProblem& problem, ByteWriter& writer) {
-  const Pose& seed = problem.camera_from_station_seed;
-  for (const double value :
-       {seed.rotation.w(), seed.rotation.x(), seed.rotation.y(), seed.rotation.z()}) {
-    writer.f64(value);
-  }
-  writer.f64s({seed.translation_m.data(), 3});
-  writer.f64s({problem.uncertainty.translation_m.data(), 3});
-  writer.f64s({problem.uncertainty.rotation_rad.data(), 3});
-  writer.f64s({problem.uncertainty.pivot_in_camera_m.data(), 3});
-  writer.f64s({problem.end_effector_in_camera_m.data(), 3});
-}
-
 void writeMesh(const MeshView& mesh, ByteWriter& writer) {
   writer.u32(static_cast<std::uint32_t>(mesh.parts.size()));
-  for (const ScenePart& part : mesh.parts) {
-    writer.f64(part.normal_threshold_rad);
-    writer.f64(part.depth_threshold_m);
-    writer.u8(roleByte(part));
-  }
+  writeParts(mesh, writer);
   writer.u32(static_cast<std::uint32_t>(mesh.vertices_in_station_m.size()));
-  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
-    for (int i = 0; i < 3; ++i) writer.f32(vertex[i]);
-  }
+  writeVertices(mesh, writer);
   writer.u32(static_cast<std::uint32_t>(mesh.faces.size()));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (const std::int32_t vertex : mesh.faces[f].vertex) writer.i32(vertex);
@@ -81,11 +46,7 @@ void writeMesh(const MeshView& mesh, ByteWriter& writer) {
 
 void writeIgnore(const BitImage* ignore, ByteWriter& writer) {
   writer.u8(ignore != nullptr ? 1 : 0);
-  if (ignore == nullptr) return;
-  for (int y = 0; y < ignore->height; ++y) {
-    for (int word = 0; word < BitImage::wordsPerRow(ignore->width); ++word)
-      writer.u64(ignore->row(y)[word]);
-  }
+  if (ignore != nullptr) writeWords(*ignore, writer);
 }
 
 /// All but the checksum; `size` is that of the whole.
@@ -95,8 +56,12 @@ void writeProblem(const LocalizationProblem& problem, const LocalizerOptions& op
   writer.u32(kProblemVersion);
   writer.u32(static_cast<std::uint32_t>(size));
   writeOptions(options, writer);
-  writeCamera(problem.camera, writer);
-  writeSeed(problem, writer);
+  const Camera& camera = problem.camera;
+  writeIntegers({static_cast<std::int32_t>(camera.model), camera.width, camera.height}, writer);
+  writeOptics(camera, writer);
+  writePose(problem.camera_from_station_seed, writer);
+  writeUncertainty(problem.uncertainty, writer);
+  writeReals(problem.end_effector_in_camera_m, writer);
   writeMesh(problem.mesh, writer);
   writeIgnore(problem.ignore, writer);
 }
@@ -289,23 +254,6 @@ ProblemCheck readContent(ByteReader& reader, Arena& arena, LocalizationProblem& 
   return {fault, nullptr};
 }
 
-ProblemFault checkFrame(std::span<const std::uint8_t> bytes) {
-  ByteReader reader(bytes);
-  const std::span<const std::uint8_t> magic = reader.take(kProblemMagic.size());
-  if (!std::equal(magic.begin(), magic.end(), kProblemMagic.begin(), kProblemMagic.end()))
-    return ProblemFault::kNotAProblem;
-  const std::uint32_t version = reader.u32();
-  const std::uint32_t size = reader.u32();
-  if (reader.failed()) return ProblemFault::kNotAProblem;
-  if (version != kProblemVersion) return ProblemFault::kVersion;
-  if (size != bytes.size() || size < kHeaderBytes + kDigestBytes) return ProblemFault::kSize;
-  const std::array<std::uint8_t, kDigestBytes> sum =
-      checksumOf(bytes.first(bytes.size() - kDigestBytes));
-  const auto stored = bytes.last(kDigestBytes);
-  return std::equal(sum.begin(), sum.end(), stored.begin()) ? ProblemFault::kNone
-                                                            : ProblemFault::kChecksum;
-}
-
 }  // namespace
 
 void writeOptions(const LocalizerOptions& options, ByteWriter& writer) {
@@ -327,33 +275,30 @@ void writeOptions(const LocalizerOptions& options, ByteWriter& writer) {
 }
 
 const char* problemFaultText(ProblemFault fault) {
-  switch (fault) {
-    case ProblemFault::kNone:
-      return "ok";
-    case ProblemFault::kNotAProblem:
-      return "not a problem file";
-    case ProblemFault::kVersion:
-      return "written in another version of the format; export it again";
-    case ProblemFault::kSize:
-      return "truncated or longer than its stored size; export it again";
-    case ProblemFault::kChecksum:
-      return "damaged: the checksum does not match; export it again";
-    case ProblemFault::kOption:
-      return "an option is unknown, missing, misplaced or out of range; export it again";
-    case ProblemFault::kCamera:
-      return "the camera's parameters are invalid";
-    case ProblemFault::kPose:
-      return "the seed or its uncertainty is not finite, or not a rotation";
-    case ProblemFault::kMesh:
-      return "the mesh has no faces, indices out of range, or is not finite";
-    case ProblemFault::kIgnore:
-      return "the ignore mask has bits beyond the image";
-    case ProblemFault::kContent:
-      return "counts and size contradict each other";
-    case ProblemFault::kArenaTooSmall:
-      return "mesh and mask do not fit into memory; use a coarser mesh";
-  }
-  return "unknown";
+  return enumName<ProblemFault::kArenaTooSmall>(
+      fault,
+      {"ok", "not a problem file", "written in another version of the format; export it again",
+       "truncated or longer than its stored size; export it again",
+       "damaged: the checksum does not match; export it again",
+       "an option is unknown, missing, misplaced or out of range; export it again",
+       "the camera's parameters are invalid",
+       "the seed or its uncertainty is not finite, or not a rotation",
+       "the mesh has no faces, indices out of range, or is not finite",
+       "the ignore mask has bits beyond the image", "counts and size contradict each other",
+       "mesh and mask do not fit into memory; use a coarser mesh"});
+}
+
+ProblemFault checkHeader(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> magic,
+                         std::uint32_t version, std::size_t checksum_bytes) {
+  ByteReader reader(bytes);
+  const std::span<const std::uint8_t> front = reader.take(magic.size());
+  const std::uint32_t stored_version = reader.u32();
+  const std::uint32_t size = reader.u32();
+  if (reader.failed() || !std::equal(magic.begin(), magic.end(), front.begin()))
+    return ProblemFault::kNotAProblem;
+  if (stored_version != version) return ProblemFault::kVersion;
+  return size != bytes.size() || reader.left() < checksum_bytes ? ProblemFault::kSize
+                                                                : ProblemFault::kNone;
 }
 
 ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options) {
@@ -394,9 +339,15 @@ ProblemCheck decodeProblem(std::span<const std::uint8_t> bytes, Arena& arena,
                            LocalizationProblem& problem, LocalizerOptions& options) {
   problem = {};
   options = {};
-  const ProblemFault fault = checkFrame(bytes);
+  const ProblemFault fault = checkHeader(bytes, kProblemMagic, kProblemVersion, kDigestBytes);
   if (fault != ProblemFault::kNone) return {fault, nullptr};
-  ByteReader reader(bytes.subspan(kHeaderBytes, bytes.size() - kHeaderBytes - kDigestBytes));
+  const auto summed = bytes.first(bytes.size() - kDigestBytes);
+  const auto stored = bytes.last(kDigestBytes);
+  const std::array<std::uint8_t, kDigestBytes> sum = checksumOf(summed);
+  if (!std::equal(sum.begin(), sum.end(), stored.begin()))
+    return {ProblemFault::kChecksum, nullptr};
+
+  ByteReader reader(summed.subspan(headerBytes(kProblemMagic)));
   return readContent(reader, arena, problem, options);
 }
 

@@ -2,30 +2,21 @@
 #include "core/record/record_writer.h"
 
 #include "core/base/crc32.h"
+#include "core/localizer/value_writers.h"
 #include "core/record/problem_bytes.h"
 #include "core/record/record_hashes.h"
 
 namespace boresight {
 namespace {
 
-void writePose(const Pose& pose, ByteWriter& writer) {
-  for (const double value :
-       {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
-    writer.f64(value);
-  writer.f64s({pose.translation_m.data(), 3});
-}
-
 void writeInputs(const RecordInputs& inputs, const LocalizationProblem& problem,
                  ByteWriter& writer) {
   for (const RecordInputs::Hash& hash : {inputs.pixels, inputs.ignore, inputs.scene, inputs.camera})
     writer.bytes(hash);
-  writer.i32(problem.image.width);
-  writer.i32(problem.image.height);
+  writeIntegers({problem.image.width, problem.image.height}, writer);
   writePose(problem.camera_from_station_seed, writer);
-  writer.f64s({problem.uncertainty.translation_m.data(), 3});
-  writer.f64s({problem.uncertainty.rotation_rad.data(), 3});
-  writer.f64s({problem.uncertainty.pivot_in_camera_m.data(), 3});
-  writer.f64s({problem.end_effector_in_camera_m.data(), 3});
+  writeUncertainty(problem.uncertainty, writer);
+  writeReals(problem.end_effector_in_camera_m, writer);
 }
 
 /// Progress of an iteration; stages that it did not reach hold values of another iteration.
@@ -66,15 +57,13 @@ void writeCounts(const Reached& at, ByteWriter& writer) {
 
 void writeEdges(const EdgeMap& edges, const RecordHash& hash, ByteWriter& writer) {
   writer.bytes(hash);
-  writer.f64(edges.low_threshold);
-  writer.f64(edges.high_threshold);
+  writeReals({edges.low_threshold, edges.high_threshold}, writer);
   writer.i32(edges.edge_count);
 }
 
 void writeIteration(const Reached& at, const RecordHash& render_hash, ByteWriter& writer) {
   const Iteration& iteration = at.iteration;
-  writer.i32(iteration.index);
-  writer.i32(iteration.attempt);
+  writeIntegers({iteration.index, iteration.attempt}, writer);
   writer.u8(static_cast<std::uint8_t>(iteration.kind));
   writer.u8(static_cast<std::uint8_t>(iteration.level));
   writer.u8(static_cast<std::uint8_t>(at.stage));
@@ -130,22 +119,17 @@ void writeTemplates(const Reached& at, ByteWriter& writer) {
   }
 }
 
-void writeSupport(const Workspace& workspace, std::int32_t iteration, ByteWriter& writer) {
-  const EdgeSupport& support = workspace.support;
+void writeSupportBlock(const Workspace& workspace, std::int32_t iteration, ByteWriter& writer) {
   writer.i32(iteration);
   writer.u8(static_cast<std::uint8_t>(workspace.iteration->status));
-  for (const std::int32_t count :
-       {support.rendered, support.covered, support.displaced, support.displaced_covered,
-        support.seen, support.explained, support.displaced_explained})
-    writer.i32(count);
+  writeSupport(workspace.support, writer);
 }
 
 void writeEnd(const Localizer& localizer, std::uint32_t blocks_before, ByteWriter& writer) {
   const Workspace& workspace = localizer.workspace();
   writer.u8(static_cast<std::uint8_t>(workspace.status));
   writer.u8(static_cast<std::uint8_t>(workspace.fault));
-  writer.i32(workspace.iterations);
-  writer.i32(workspace.attempts);
+  writeIntegers({workspace.iterations, workspace.attempts}, writer);
   writePose(workspace.camera_from_station, writer);
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column <= row; ++column) writer.f64(workspace.covariance(row, column));
@@ -218,8 +202,9 @@ void RecordWriter::note(const Localizer& localizer, const StepReport& report) {
     if (at.selected())
       add(RecordBlock::kTemplates, [&](ByteWriter& writer) { writeTemplates(at, writer); });
   } else if (report.stage == Stage::kSupport && report.stage_complete && iterations_ > 0) {
-    add(RecordBlock::kSupport,
-        [&](ByteWriter& writer) { writeSupport(workspace, workspace.iteration->index, writer); });
+    add(RecordBlock::kSupport, [&](ByteWriter& writer) {
+      writeSupportBlock(workspace, workspace.iteration->index, writer);
+    });
   }
 }
 

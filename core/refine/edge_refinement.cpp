@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 
 namespace boresight {
 namespace {
@@ -29,8 +30,8 @@ double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
 Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   setOptions(options);
-  absolute_residuals_ = arena.allocate<float>(static_cast<std::size_t>(options.max_samples));
-  found_at_px_ = arena.allocate<double>(static_cast<std::size_t>(options.max_samples));
+  absolute_residuals_ = arena.allocate<float>(options.max_samples);
+  found_at_px_ = arena.allocate<double>(options.max_samples);
   if (groups_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
@@ -79,7 +80,7 @@ void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render,
     sample.normal_y = pixel.normal_y;
     sample.kind = pixel.kind;
     box_px_.extend(scale * position_px);
-    result.samples[static_cast<std::size_t>(result.sample_count)] = sample;
+    nth(result.samples, result.sample_count) = sample;
     ++result.sample_count;
   }
 }
@@ -88,15 +89,11 @@ double EdgeRefinement::robustScale() {
   const RefinementResult& result = *result_;
   std::size_t count = 0;
   for (std::int32_t i = 0; i < result.sample_count; ++i) {
-    const EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    const EdgeSample& sample = nth(result.samples, i);
     if (sample.gradient == 0.0) continue;
-    absolute_residuals_[count] = static_cast<float>(std::abs(sample.residual_px));
-    ++count;
+    absolute_residuals_[count++] = static_cast<float>(std::abs(sample.residual_px));
   }
-  const auto middle = absolute_residuals_.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(absolute_residuals_.begin(), middle,
-                   absolute_residuals_.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(kMinScale_px, kMadToSigma * static_cast<double>(*middle));
+  return robustScale_px(absolute_residuals_.first(count));
 }
 
 Status EdgeRefinement::step(bool& done) {
@@ -123,7 +120,7 @@ Status EdgeRefinement::gather(EdgeEquations& found) {
     moved_px_ = 0.0;
     result.found_count = 0;
     for (std::int32_t i = 0; i < result.sample_count; ++i) {
-      if (result.samples[static_cast<std::size_t>(i)].gradient != 0.0) ++result.found_count;
+      if (nth(result.samples, i).gradient != 0.0) ++result.found_count;
     }
   }
   if (result.found_count < kMinFound) return Status::kTooFewEdges;
@@ -146,22 +143,20 @@ Status EdgeRefinement::gather(EdgeEquations& found) {
 
 void EdgeRefinement::searchChunk(int chunk) {
   RefinementResult& result = *result_;
-  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
-  const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
+  const PoseMatrix camera_from_station(result.camera_from_station);
   const EdgeSearch& search = radius_px_ >= kWideSearch_px ? wide_search_ : fine_search_;
   const std::int32_t end = std::min(result.sample_count, (chunk + 1) * kChunk);
   for (std::int32_t i = chunk * kChunk; i < end; ++i) {
-    EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    EdgeSample& sample = nth(result.samples, i);
     sample.gradient = 0.0;
     Eigen::Vector2d predicted_px;
-    if (!project(camera_, rotation * sample.point_in_station_m + translation_m, predicted_px))
-      continue;
+    if (!project(camera_, camera_from_station * sample.point_in_station_m, predicted_px)) continue;
     const Eigen::Vector2d normal = sample.normal();
     const EdgePeak peak =
         search.find(image_, ignore_, predicted_px, normal, radius_px_, kMinGradient);
     sample.residual_px = peak.offset_px;
     sample.gradient = peak.gradient;
-    found_at_px_[static_cast<std::size_t>(i)] = normal.dot(predicted_px) + peak.offset_px;
+    nth(found_at_px_, i) = normal.dot(predicted_px) + peak.offset_px;
   }
 }
 
@@ -210,22 +205,21 @@ void EdgeRefinement::addKnowledge(NormalEquations& equations) const {
 /// Equations of the edges found, at the current pose, with Tukey's weights; counts the used edges.
 EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
   RefinementResult& result = *result_;
-  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
-  const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
+  const PoseMatrix camera_from_station(result.camera_from_station);
   const double cut_px = kTukey * scale_px_;
   EdgeEquations equations;
   groups_.clear();
   result.used_count = 0;
   for (std::int32_t i = 0; i < result.sample_count; ++i) {
-    EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
+    EdgeSample& sample = nth(result.samples, i);
     sample.weight = 0.0;
     if (sample.gradient == 0.0) continue;
-    const Eigen::Vector3d point_in_camera_m = rotation * sample.point_in_station_m + translation_m;
+    const Eigen::Vector3d point_in_camera_m = camera_from_station * sample.point_in_station_m;
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> jacobian;
     if (!projectWithJacobian(camera_, point_in_camera_m, pixel, jacobian)) continue;
     const Eigen::Vector2d normal = sample.normal();
-    sample.residual_px = found_at_px_[static_cast<std::size_t>(i)] - normal.dot(pixel);
+    sample.residual_px = nth(found_at_px_, i) - normal.dot(pixel);
     if (std::abs(sample.residual_px) >= cut_px) continue;
     const double ratio = sample.residual_px / cut_px;
     sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
@@ -248,9 +242,7 @@ void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d&
   const double bend = share * (1.0 - squared) * (1.0 - 5.0 * squared);  // of Tukey's influence
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b <= a; ++b) curvature(a, b) += bend * row[a] * row[b];
-  const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
-  const Eigen::Vector2d place = (pixel - box_px_.min()).cwiseQuotient(sizes_px);
-  groups_.add({place, sample.normal(), sample.gradient > 0.0, sample.kind}, sample.residual_px,
+  groups_.add(groupedError(sample, pixel, box_px_), sample.residual_px,
               share * sample.weight * row);
 }
 

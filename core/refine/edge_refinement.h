@@ -58,6 +58,14 @@ struct EdgeSample {
   Eigen::Vector2d normal() const { return Eigen::Vector2d(normal_x, normal_y) / 127.0; }
 };
 
+/// A sample found at a pixel, as its error is grouped; `box_px` holds all places.
+inline GroupedError groupedError(const EdgeSample& sample, const Eigen::Vector2d& pixel,
+                                 const Eigen::AlignedBox2d& box_px) {
+  const Eigen::Vector2d sizes_px = box_px.sizes().cwiseMax(1.0);
+  return {(pixel - box_px.min()).cwiseQuotient(sizes_px), sample.normal(), sample.gradient > 0.0,
+          sample.kind};
+}
+
 /// Equations of an image's edges for a pose in a round.
 struct EdgeEquations {
   NormalEquations step;  ///< H and g, in px / px of noise

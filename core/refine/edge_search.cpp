@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 
 namespace boresight {
 namespace {
@@ -47,7 +48,7 @@ EdgeSearch::EdgeSearch(double sigma_px, double step_px) : step_px_(step_px) {
   for (int k = 1; k <= taps_; ++k) {
     const double s_px = k * step_px_;
     const double weight = s_px * exp(-0.5 * s_px * s_px / (sigma_px * sigma_px));
-    weights[static_cast<std::size_t>(k - 1)] = weight;
+    nth(weights, k - 1) = weight;
     ramp += 2.0 * s_px * weight;
   }
   // A ramp of 1 gray per px gives 1.
@@ -81,7 +82,7 @@ bool EdgeSearch::sample(const ImageView& image, const Eigen::Vector2d& predicted
     const std::int32_t sum = grayAt(origin, stride, x - aside_x, y - aside_y) +
                              2 * grayAt(origin, stride, x, y) +
                              grayAt(origin, stride, x + aside_x, y + aside_y);
-    profile[static_cast<std::size_t>(i)] = static_cast<float>(sum);
+    nth(profile, i) = static_cast<float>(sum);
     x += step_x;
     y += step_y;
   }
@@ -92,11 +93,10 @@ bool EdgeSearch::sample(const ImageView& image, const Eigen::Vector2d& predicted
 void EdgeSearch::derive(const Profile& profile, int count, Profile& slope) const {
   std::fill_n(slope.begin(), count, 0.0F);
   for (int k = 1; k <= taps_; ++k) {
-    const float weight = kernel_[static_cast<std::size_t>(k - 1)];
+    const float weight = nth(kernel_, k - 1);
     const float* before = profile.data() + taps_ - k;
     const float* after = profile.data() + taps_ + k;
-    for (int i = 0; i < count; ++i)
-      slope[static_cast<std::size_t>(i)] += weight * (after[i] - before[i]);
+    for (int i = 0; i < count; ++i) nth(slope, i) += weight * (after[i] - before[i]);
   }
 }
 

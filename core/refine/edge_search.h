@@ -25,7 +25,6 @@ class EdgeSearch {
   /// For peaks to a tenth of a pixel, at half the cost.
   static constexpr double kWideStep_px = 1.0;
 
-  EdgeSearch() = default;
   /// `sigma_px`: scale of the derivative along the normal. Peaks are interpolated between steps.
   explicit EdgeSearch(double sigma_px, double step_px = kFineStep_px);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/nth.h"
 #include "core/pnp/normal_equations.h"
 
 namespace boresight {
@@ -12,8 +13,14 @@ constexpr double kTan22 = 0.41421356237309503;  ///< tan 22.5 deg
 
 }  // namespace
 
+double robustScale_px(std::span<float> sizes_px) {
+  const auto middle = sizes_px.begin() + static_cast<std::ptrdiff_t>(sizes_px.size() / 2);
+  std::nth_element(sizes_px.begin(), middle, sizes_px.end());
+  return std::max(kMinScale_px, kMadToSigma * static_cast<double>(*middle));
+}
+
 Status ErrorGroups::create(Arena& arena) {
-  scores_ = arena.allocate<Vector6d>(static_cast<std::size_t>(kByPlace + kBySide + kByKind));
+  scores_ = arena.allocate<Vector6d>(kByPlace + kBySide + kByKind);
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -53,7 +60,7 @@ void ErrorGroups::add(const GroupedError& error, double residual_px, const Vecto
   constexpr std::array<int, 3> kFirst = {0, kByPlace, kByPlace + kBySide};
   const std::array<int, 3> groups = groupsOf(error);
   for (std::size_t i = 0; i < groups.size(); ++i)
-    scores_[static_cast<std::size_t>(kFirst[i] + groups[i])] += residual_px * slope;
+    nth(scores_, kFirst[i] + groups[i]) += residual_px * slope;
   const std::array<double, 3> offsets = {1.0, error.normal.x(), error.normal.y()};
   for (std::size_t i = 0; i < offsets.size(); ++i) common_[i] += offsets[i] * slope;
 }
@@ -62,7 +69,7 @@ bool ErrorGroups::addSquares(int first, int count, Matrix6d& squares) const {
   Matrix6d sum = Matrix6d::Zero();
   int filled = 0;
   for (int i = first; i < first + count; ++i) {
-    const Vector6d& score = scores_[static_cast<std::size_t>(i)];
+    const Vector6d& score = nth(scores_, i);
     if (score.squaredNorm() == 0.0) continue;
     ++filled;
     for (int a = 0; a < 6; ++a)

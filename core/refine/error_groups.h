@@ -18,6 +18,9 @@ inline constexpr double kTukey = 4.685;
 inline constexpr double kMadToSigma = 1.4826;
 inline constexpr double kMinScale_px = 0.15;
 
+/// That scale of errors, given their sizes; reorders them.
+double robustScale_px(std::span<float> sizes_px);
+
 /// One measured place on an edge, as it enters a pose.
 struct GroupedError {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();   ///< in the box of all places, 0 ... 1

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/refine/focal_fit.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/refine/error_groups.h"
 
 namespace boresight {
@@ -16,7 +16,7 @@ constexpr double kLeastFocalShare = 1e-9;
 template <std::size_t N>
 class ScalarGroups {
  public:
-  void add(int group, double error) { sums_[static_cast<std::size_t>(group)] += error; }
+  void add(int group, double error) { nth(sums_, group) += error; }
   /// The squares, weighted by G / (G - 1) for G non-empty groups; 0 for fewer than two.
   double squares() const {
     double squares = 0.0;
@@ -45,14 +45,14 @@ struct FocalFitter::Sums {
 };
 
 Status FocalFitter::create(std::int32_t max_samples, Arena& arena) {
-  residuals_ = arena.allocate<float>(static_cast<std::size_t>(max_samples));
+  residuals_ = arena.allocate<float>(max_samples);
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
 void FocalFitter::begin(const Camera& camera, const RefinementResult& refined) {
   camera_ = camera;
   refined_ = &refined;
-  rotation_ = refined.camera_from_station.matrix();
+  camera_from_station_ = PoseMatrix(refined.camera_from_station);
   round_ = 0;
   xi_ = Vector6d::Zero();
   fit_ = {};
@@ -72,12 +72,10 @@ bool FocalFitter::step() {
 /// False for samples without an edge.
 bool FocalFitter::rowOf(const EdgeSample& sample, Row& row) const {
   if (sample.gradient == 0.0) return false;
-  const Eigen::Vector3d point_m =
-      rotation_ * sample.point_in_station_m + refined_->camera_from_station.translation_m;
+  const Eigen::Vector3d point_m = camera_from_station_ * sample.point_in_station_m;
   Eigen::Matrix<double, 2, 3> jacobian;
   if (!projectWithJacobian(camera_, point_m, row.pixel, jacobian)) return false;
-  const Eigen::Vector3d slope = (sample.normal().transpose() * jacobian).transpose();
-  row.by_pose << point_m.cross(slope), slope;
+  row.by_pose = lineRow(point_m, sample.normal(), jacobian);
   row.by_focal = sample.normal().dot(row.pixel - Eigen::Vector2d(camera_.cx, camera_.cy));
   row.residual_px = sample.residual_px - row.by_pose.dot(xi_) - row.by_focal * fit_.change;
   return true;
@@ -85,18 +83,16 @@ bool FocalFitter::rowOf(const EdgeSample& sample, Row& row) const {
 
 /// The residuals' robust scale. False when there are too few.
 bool FocalFitter::measureScale() {
-  std::ptrdiff_t count = 0;
+  std::size_t count = 0;
   box_px_.setEmpty();
   Row row;
   for (std::int32_t i = 0; i < refined_->sample_count; ++i) {
-    if (!rowOf(refined_->samples[static_cast<std::size_t>(i)], row)) continue;
-    residuals_[static_cast<std::size_t>(count++)] = static_cast<float>(std::abs(row.residual_px));
+    if (!rowOf(nth(refined_->samples, i), row)) continue;
+    residuals_[count++] = static_cast<float>(std::abs(row.residual_px));
     box_px_.extend(row.pixel);
   }
   if (count < EdgeRefinement::kMinFound) return false;
-  const auto middle = residuals_.begin() + count / 2;
-  std::nth_element(residuals_.begin(), middle, residuals_.begin() + count);
-  cut_px_ = kTukey * std::max(kMinScale_px, kMadToSigma * static_cast<double>(*middle));
+  cut_px_ = kTukey * robustScale_px(residuals_.first(count));
   return true;
 }
 
@@ -109,7 +105,7 @@ double FocalFitter::weightOf(const EdgeSample& sample, const Row& row) const {
 void FocalFitter::weigh(Sums& sums) const {
   Row row;
   for (std::int32_t i = 0; i < refined_->sample_count; ++i) {
-    const EdgeSample& sample = refined_->samples[static_cast<std::size_t>(i)];
+    const EdgeSample& sample = nth(refined_->samples, i);
     if (!rowOf(sample, row)) continue;
     const double weight = weightOf(sample, row);
     for (int a = 0; a < 6; ++a) {
@@ -142,16 +138,14 @@ void FocalFitter::measureSigma() {
   ScalarGroups<ErrorGroups::kBySide> by_side;
   ScalarGroups<ErrorGroups::kByKind> by_kind;
   Eigen::Vector3d common = Eigen::Vector3d::Zero();
-  const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
   Row row;
   for (std::int32_t i = 0; i < refined_->sample_count; ++i) {
-    const EdgeSample& sample = refined_->samples[static_cast<std::size_t>(i)];
+    const EdgeSample& sample = nth(refined_->samples, i);
     if (!rowOf(sample, row)) continue;
     const double slope = weightOf(sample, row) * (row.by_focal - coupling_.dot(row.by_pose));
     const double error = slope * row.residual_px;
-    const Eigen::Vector2d place = (row.pixel - box_px_.min()).cwiseQuotient(sizes_px);
     const std::array<int, 3> groups =
-        ErrorGroups::groupsOf({place, sample.normal(), sample.gradient > 0.0, sample.kind});
+        ErrorGroups::groupsOf(groupedError(sample, row.pixel, box_px_));
     by_place.add(groups[0], error);
     by_side.add(groups[1], error);
     by_kind.add(groups[2], error);

@@ -70,7 +70,7 @@ class FocalFitter {
 
   Camera camera_;
   const RefinementResult* refined_ = nullptr;
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+  PoseMatrix camera_from_station_{Pose()};
   std::span<float> residuals_;
   Eigen::AlignedBox2d box_px_;  ///< of the edge places
   int round_ = 0;

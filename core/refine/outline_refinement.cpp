@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/pnp/normal_equations.h"
 #include "core/render/rounding.h"
 
@@ -47,13 +48,12 @@ Status OutlineRefinement::create(Arena& arena) {
 void OutlineRefinement::takePlaces(const MeshView& mesh, const EdgeRender& render) {
   camera_ = render.camera;
   count_ = 0;
-  const int stride = std::max(1, (render.pixel_count + kMaxSamples - 1) / kMaxSamples);
-  for (const EdgePixel& pixel : render.eachPixel(stride)) {
-    Sample& sample = samples_[static_cast<std::size_t>(count_)];
+  for (const EdgePixel& pixel : render.eachPixel(render.strideFor(kMaxSamples))) {
+    Sample& sample = nth(samples_, count_);
     Eigen::Vector2d position_px;
     if (!edgeLinePoint(render, mesh, pixel, position_px, sample.point_in_station_m)) continue;
-    sample.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
-    sample.direction = static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
+    sample.normal = pixel.normal();
+    sample.direction = edgeDirectionOf(pixel.normal_x, pixel.normal_y);
     ++count_;
   }
 }
@@ -66,10 +66,10 @@ bool OutlineRefinement::refine(const DirectedEdges& edges, const PosePrior& prio
     const int radius = static_cast<int>(radius_px + 0.5);
     NormalEquations equations;
     double weights = 0.0;
-    const Eigen::Matrix3d rotation = pose.matrix();
+    const PoseMatrix to_view(pose);
     for (int i = 0; i < count_; ++i) {
-      const Sample& sample = samples_[static_cast<std::size_t>(i)];
-      const Eigen::Vector3d point = rotation * sample.point_in_station_m + pose.translation_m;
+      const Sample& sample = nth(samples_, i);
+      const Eigen::Vector3d point = to_view * sample.point_in_station_m;
       Eigen::Vector2d pixel;
       Eigen::Matrix<double, 2, 3> jacobian;
       if (!projectWithJacobian(camera_, point, pixel, jacobian)) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/pnp/normal_equations.h"
 
@@ -85,15 +86,14 @@ double varianceAlong(const Vector6d& direction, const SeedUncertainty& uncertain
 
 void EdgeMotion::add(const RefinementResult& refined, const Camera& camera,
                      const Pose& camera_from_first) {
-  const Pose& pose = refined.camera_from_station;
-  const Eigen::Matrix3d rotation = pose.matrix();
+  const PoseMatrix camera_from_station(refined.camera_from_station);
   const Eigen::Matrix3d from_first = camera_from_first.matrix();
   const Eigen::Vector3d pivot_m = camera_from_first * pivot_in_camera_m_;
   const std::int32_t stride =
       std::max(1, (refined.sample_count + kMostMeanPlaces - 1) / kMostMeanPlaces);
   for (std::int32_t i = 0; i < refined.sample_count; i += stride) {
-    const EdgeSample& sample = refined.samples[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d point_m = rotation * sample.point_in_station_m + pose.translation_m;
+    const EdgeSample& sample = nth(refined.samples, i);
+    const Eigen::Vector3d point_m = camera_from_station * sample.point_in_station_m;
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> jacobian;
     if (!projectWithJacobian(camera, point_m, pixel, jacobian)) continue;

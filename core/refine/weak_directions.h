@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/nth.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "core/refine/edge_refinement.h"
@@ -32,8 +33,7 @@ struct WeakDirections {
 
   /// The pose moved along a direction by `motion_px`, root mean square over the edge places.
   Pose moved(const Pose& camera_from_station, int direction, double motion_px) const {
-    return displacedAboutPivot(camera_from_station,
-                               motion_px * offset_per_px[static_cast<std::size_t>(direction)],
+    return displacedAboutPivot(camera_from_station, motion_px * nth(offset_per_px, direction),
                                pivot_in_camera_m);
   }
 };

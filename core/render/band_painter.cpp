@@ -121,4 +121,10 @@ Status BandPainter::step(const BandSource& source, EdgeRender& output, bool& don
   return status;
 }
 
+Status BandPainter::drawAll(const BandSource& source, EdgeRender& output) {
+  Status status = Status::kOk;
+  for (bool done = false; !done;) status = step(source, output, done);
+  return status;
+}
+
 }  // namespace boresight

@@ -49,6 +49,8 @@ class BandPainter {
   /// set `done`; the rows before are valid.
   Status step(const BandSource& source, EdgeRender& output, bool& done);
 
+  /// All remaining slices.
+  Status drawAll(const BandSource& source, EdgeRender& output);
   /// The first row that a painter of bands from `first_band` on completes.
   static int firstRow(int first_band, int band_rows) {
     return first_band > 0 ? first_band * band_rows - 1 : 0;

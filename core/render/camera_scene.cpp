@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/render/rounding.h"
 
 namespace boresight {
@@ -25,49 +26,48 @@ double clamped(double value, double low, double high) {
   return above < high ? above : high;
 }
 
+/// A rectangle, and how far lines may bend out of it.
+struct FaceBox {
+  double x_min = 1e300, x_max = -1e300, y_min = 1e300, y_max = -1e300;
+  double margin = 0.0;
+
+  void include(double x, double y) {
+    x_min = std::min(x_min, x);
+    x_max = std::max(x_max, x);
+    y_min = std::min(y_min, y);
+    y_max = std::max(y_max, y);
+  }
+  double length2() const {
+    return (x_max - x_min) * (x_max - x_min) + (y_max - y_min) * (y_max - y_min);
+  }
+};
+
 /// Bounds of a face that crosses the near plane or leaves the region where projection is well
 /// behaved: what is left of it beyond the near plane has a bounding box in (x/z, y/z).
 PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face) {
   const Corners corner = scene.corners(face);
   const double near_m = CameraScene::kNearPlane_m;
-  double x_min = 1e300, x_max = -1e300, y_min = 1e300, y_max = -1e300;
-  const auto include = [&](double x, double y) {
-    x_min = std::min(x_min, x);
-    x_max = std::max(x_max, x);
-    y_min = std::min(y_min, y);
-    y_max = std::max(y_max, y);
-  };
+  FaceBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     const Eigen::Vector3d& a = corner[i];
     const Eigen::Vector3d& b = corner[(i + 1) % 3];
-    if (a.z() >= near_m) include(a.x() / a.z(), a.y() / a.z());
+    if (a.z() >= near_m) box.include(a.x() / a.z(), a.y() / a.z());
     if ((a.z() >= near_m) == (b.z() >= near_m)) continue;
     const double s = (near_m - a.z()) / (b.z() - a.z());
-    include((a.x() + s * (b.x() - a.x())) / near_m, (a.y() + s * (b.y() - a.y())) / near_m);
+    box.include((a.x() + s * (b.x() - a.x())) / near_m, (a.y() + s * (b.y() - a.y())) / near_m);
   }
-  PixelBounds bounds;
-  if (!(x_min <= x_max && y_min <= y_max)) return bounds;
-  const double slack_x = 1e-9 * (1.0 + std::abs(x_min) + std::abs(x_max));
-  const double slack_y = 1e-9 * (1.0 + std::abs(y_min) + std::abs(y_max));
-  const RayGrid::Range columns = rays.columnsWithin(x_min - slack_x, x_max + slack_x);
-  const RayGrid::Range rows = rays.rowsWithin(y_min - slack_y, y_max + slack_y);
-  bounds = {columns.first, columns.last, rows.first, rows.last};
-  return bounds;
+  if (!(box.x_min <= box.x_max && box.y_min <= box.y_max)) return {};
+  const double slack_x = 1e-9 * (1.0 + std::abs(box.x_min) + std::abs(box.x_max));
+  const double slack_y = 1e-9 * (1.0 + std::abs(box.y_min) + std::abs(box.y_max));
+  const RayGrid::Range columns = rays.columnsWithin(box.x_min - slack_x, box.x_max + slack_x);
+  const RayGrid::Range rows = rays.rowsWithin(box.y_min - slack_y, box.y_max + slack_y);
+  return {columns.first, columns.last, rows.first, rows.last};
 }
 
-BoundingBox boxOf(std::span<const Eigen::Vector3f> vertices_m) {
-  BoundingBox box;
-  if (vertices_m.empty()) return box;
-  Eigen::Vector3f low = vertices_m.front();
-  Eigen::Vector3f high = low;
-  for (const Eigen::Vector3f& vertex : vertices_m)
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], vertex[k]);
-      high[k] = std::max(high[k], vertex[k]);
-    }
-  box.minimum_m = low.cast<double>();
-  box.maximum_m = high.cast<double>();
-  return box;
+BoundingBox boxOfVertices(std::span<const Eigen::Vector3f> vertices_m) {
+  Eigen::AlignedBox3f bounds_m;
+  for (const Eigen::Vector3f& vertex : vertices_m) bounds_m.extend(vertex);
+  return boxOf(bounds_m);
 }
 
 /// Bounds of the depths (z) of a box seen from a pose.
@@ -107,17 +107,14 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
     scene.cos_normal_threshold[i] = cos(std::clamp(mesh.parts[i].normal_threshold_rad, 0.0, kPi));
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) scene.setFlags(i);
   scene.first_in_camera = firstVertexInCamera(mesh);
-  scene.station_box = boxOf(mesh.vertices_in_station_m.first(scene.first_in_camera));
-  scene.camera_box = boxOf(mesh.vertices_in_station_m.subspan(scene.first_in_camera));
+  scene.station_box = boxOfVertices(mesh.vertices_in_station_m.first(scene.first_in_camera));
+  scene.camera_box = boxOfVertices(mesh.vertices_in_station_m.subspan(scene.first_in_camera));
   return Status::kOk;
 }
 
 /// Outer normal of a face in its part's frame, not of unit length.
 Eigen::Vector3d CameraScene::outerNormal(std::size_t face) const {
-  Eigen::Vector3d corner[3];
-  for (std::size_t i = 0; i < 3; ++i)
-    corner[i] = mesh.vertices_in_station_m[static_cast<std::size_t>(mesh.faces[face].vertex[i])]
-                    .cast<double>();
+  const Corners corner = mesh.corners(face);
   return crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
 }
 
@@ -125,13 +122,9 @@ Eigen::Vector3d CameraScene::outerNormal(std::size_t face) const {
 /// times that is noise.
 bool CameraScene::normalIsKnown(std::size_t face, const Eigen::Vector3d& normal) const {
   constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the part's frame
-  Eigen::Vector3d corner[3];
+  const Corners corner = mesh.corners(face);
   double size = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    corner[i] = mesh.vertices_in_station_m[static_cast<std::size_t>(mesh.faces[face].vertex[i])]
-                    .cast<double>();
-    for (int k = 0; k < 3; ++k) size = std::max(size, std::abs(corner[i][k]));
-  }
+  for (const Eigen::Vector3d& point : corner) size = std::max(size, point.cwiseAbs().maxCoeff());
   double longest2 = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Eigen::Vector3d side = corner[i < 2 ? i + 1 : 0] - corner[i];
@@ -237,6 +230,54 @@ void moveToPupil(const Camera& camera, std::size_t count, VertexBlock& block) {
   }
 }
 
+void projectPinhole(const Camera& camera, const FixedScale& scale, const VertexBlock& block,
+                    std::span<FixedPixel> pixels) {
+  const auto& [x_m, y_m, z_m] = block.camera;
+  // Counted from -kLimit, so that truncation rounds towards the same side everywhere.
+  const double steps = scale.steps();
+  const double focal_x = camera.fx * steps;
+  const double focal_y = camera.fy * steps;
+  const double from_x = (camera.cx - scale.middle_x) * steps + (FixedScale::kLimit + 0.5);
+  const double from_y = (camera.cy - scale.middle_y) * steps + (FixedScale::kLimit + 0.5);
+  int fixed_x[kBlock];
+  int fixed_y[kBlock];
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    const double inverse_z = 1.0 / z_m[i];
+    const double x = x_m[i] * inverse_z * focal_x + from_x;
+    const double y = y_m[i] * inverse_z * focal_y + from_y;
+    fixed_x[i] = static_cast<int>(clamped(x, 0.0, 2.0 * FixedScale::kLimit));
+    fixed_y[i] = static_cast<int>(clamped(y, 0.0, 2.0 * FixedScale::kLimit));
+  }
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    pixels[i] = {static_cast<std::int16_t>(fixed_x[i] - FixedScale::kLimit),
+                 static_cast<std::int16_t>(fixed_y[i] - FixedScale::kLimit)};
+    if (!(z_m[i] >= CameraScene::kNearPlane_m))
+      pixels[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
+  }
+}
+
+void projectDistorted(const Camera& camera, const FixedScale& scale, const VertexBlock& block,
+                      std::span<FixedPixel> pixels) {
+  const auto& [x_m, y_m, z_m] = block.camera;
+  // The bound on the bend of lines holds over the image and one node beyond it.
+  const double reach = RayGrid::kSpacing_px;
+  const double steps = scale.steps();
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const Eigen::Vector3d q(x_m[i], y_m[i], z_m[i]);
+    pixels[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
+    Eigen::Vector2d pixel;
+    if (!(q.z() >= CameraScene::kNearPlane_m) || !projectDirection(camera, q, pixel)) continue;
+    if (!(pixel.x() >= -reach && pixel.x() <= camera.width - 1 + reach && pixel.y() >= -reach &&
+          pixel.y() <= camera.height - 1 + reach))
+      continue;
+    const auto fixed = [steps](double value_px) {
+      return static_cast<std::int16_t>(
+          floorClamped(value_px * steps + 0.5, -FixedScale::kLimit, FixedScale::kLimit));
+    };
+    pixels[i] = {fixed(pixel.x() - scale.middle_x), fixed(pixel.y() - scale.middle_y)};
+  }
+}
+
 }  // namespace
 
 void CameraScene::transform(const RayGrid& rays, std::size_t first, std::size_t last) {
@@ -261,56 +302,8 @@ void CameraScene::transformBy(const Placement& placed, const RayGrid& rays, std:
     for (std::size_t i = 0; i < count; ++i)
       vertex_depth[begin + i] = static_cast<std::uint16_t>(static_cast<int>(steps_of_depth[i]));
     const std::span<FixedPixel> pixels = vertex_px.subspan(begin, count);
-    if (rays.level())
-      projectPinhole(rays.camera(), block.camera[0], block.camera[1], block.camera[2], pixels);
-    else
-      projectDistorted(rays.camera(), block.camera[0], block.camera[1], block.camera[2], pixels);
-  }
-}
-
-void CameraScene::projectPinhole(const Camera& camera, const double* x_m, const double* y_m,
-                                 const double* z_m, std::span<FixedPixel> pixels) const {
-  // Counted from -kLimit, so that truncation rounds towards the same side everywhere.
-  const double steps = scale.steps();
-  const double focal_x = camera.fx * steps;
-  const double focal_y = camera.fy * steps;
-  const double from_x = (camera.cx - scale.middle_x) * steps + (FixedScale::kLimit + 0.5);
-  const double from_y = (camera.cy - scale.middle_y) * steps + (FixedScale::kLimit + 0.5);
-  int fixed_x[kBlock];
-  int fixed_y[kBlock];
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    const double inverse_z = 1.0 / z_m[i];
-    const double x = x_m[i] * inverse_z * focal_x + from_x;
-    const double y = y_m[i] * inverse_z * focal_y + from_y;
-    fixed_x[i] = static_cast<int>(clamped(x, 0.0, 2.0 * FixedScale::kLimit));
-    fixed_y[i] = static_cast<int>(clamped(y, 0.0, 2.0 * FixedScale::kLimit));
-  }
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    pixels[i] = {static_cast<std::int16_t>(fixed_x[i] - FixedScale::kLimit),
-                 static_cast<std::int16_t>(fixed_y[i] - FixedScale::kLimit)};
-    if (!(z_m[i] >= kNearPlane_m))
-      pixels[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
-  }
-}
-
-void CameraScene::projectDistorted(const Camera& camera, const double* x_m, const double* y_m,
-                                   const double* z_m, std::span<FixedPixel> pixels) const {
-  // The bound on the bend of lines holds over the image and one node beyond it.
-  const double reach = RayGrid::kSpacing_px;
-  const double steps = scale.steps();
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const Eigen::Vector3d q(x_m[i], y_m[i], z_m[i]);
-    pixels[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
-    Eigen::Vector2d pixel;
-    if (!(q.z() >= kNearPlane_m) || !projectDirection(camera, q, pixel)) continue;
-    if (!(pixel.x() >= -reach && pixel.x() <= camera.width - 1 + reach && pixel.y() >= -reach &&
-          pixel.y() <= camera.height - 1 + reach))
-      continue;
-    const auto fixed = [steps](double value_px) {
-      return static_cast<std::int16_t>(
-          floorClamped(value_px * steps + 0.5, -FixedScale::kLimit, FixedScale::kLimit));
-    };
-    pixels[i] = {fixed(pixel.x() - scale.middle_x), fixed(pixel.y() - scale.middle_y)};
+    const auto project_all = rays.level() ? projectPinhole : projectDistorted;
+    project_all(rays.camera(), scale, block, pixels);
   }
 }
 
@@ -326,22 +319,6 @@ bool faceEdges(const Corners& corners, Eigen::Vector3d edge[3]) {
 }
 
 namespace {
-
-/// A rectangle of the image, px, and how far lines may bend out of it.
-struct FaceBox {
-  double x_min = 1e300, x_max = -1e300, y_min = 1e300, y_max = -1e300;
-  double margin = 0.0;
-
-  void include(double x, double y) {
-    x_min = std::min(x_min, x);
-    x_max = std::max(x_max, x);
-    y_min = std::min(y_min, y);
-    y_max = std::max(y_max, y);
-  }
-  double length2() const {
-    return (x_max - x_min) * (x_max - x_min) + (y_max - y_min) * (y_max - y_min);
-  }
-};
 
 /// A line of length L and curvature k stays within k L^2 / 8 of its chord; twice that.
 double bendMargin(const RayGrid& rays, double length2) {
@@ -376,10 +353,10 @@ bool boxBySegments(const CameraScene& scene, const RayGrid& rays, std::int32_t f
 
 PixelBounds faceBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face) {
   constexpr double kFarBend_px = 8.0;
-  const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const Face& indices = nth(scene.mesh.faces, face);
   FaceBox box;
   for (const std::int32_t vertex : indices.vertex) {
-    const FixedPixel& pixel = scene.vertex_px[static_cast<std::size_t>(vertex)];
+    const FixedPixel& pixel = nth(scene.vertex_px, vertex);
     if (pixel.x == FixedPixel::kNotProjected) return clippedBounds(scene, rays, face);
     box.include(pixel.x, pixel.y);
   }

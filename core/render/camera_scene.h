@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/base/arena.h"
+#include "core/base/nth.h"
 #include "core/base/status.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
@@ -40,9 +40,6 @@ struct FixedScale {
   /// Steps to a pixel.
   int steps() const { return 1 << shift; }
 };
-
-/// The corners of a face.
-using Corners = std::array<Eigen::Vector3d, 3>;
 
 /// The mesh seen from one pose: the pixels and depths of its vertices in 16 bits, for bounds and
 /// for decisions beyond rounding. Vertices in the camera frame (where the entrance pupil moves: as
@@ -85,24 +82,22 @@ struct CameraScene {
   void orient(std::int32_t face);
   /// Sets or clears a face's kFrontFacing.
   void setFrontFacing(std::int32_t face, bool front) {
-    std::uint8_t& flags = face_flags[static_cast<std::size_t>(face)];
+    std::uint8_t& flags = nth(face_flags, face);
     flags = static_cast<std::uint8_t>(front ? flags | kFrontFacing : flags & ~kFrontFacing);
   }
   /// A face's kFrontFacing.
   bool isFrontFacing(std::int32_t face) const {
-    return (face_flags[static_cast<std::size_t>(face)] & kFrontFacing) != 0;
+    return (nth(face_flags, face) & kFrontFacing) != 0;
   }
 
   /// A face's kNormalKnown.
-  bool normalKnown(std::int32_t face) const {
-    return (face_flags[static_cast<std::size_t>(face)] & kNormalKnown) != 0;
-  }
+  bool normalKnown(std::int32_t face) const { return (nth(face_flags, face) & kNormalKnown) != 0; }
 
   /// True when two faces share an edge over which the surface continues smoothly and show the same
   /// side, without a salient edge between them.
   bool continues(std::int32_t face, std::int32_t other) const {
-    const std::uint8_t flags = face_flags[static_cast<std::size_t>(face)];
-    if (((flags ^ face_flags[static_cast<std::size_t>(other)]) & kFrontFacing) != 0) return false;
+    const std::uint8_t flags = nth(face_flags, face);
+    if (((flags ^ nth(face_flags, other)) & kFrontFacing) != 0) return false;
     for (int i = 0; i < 3; ++i)
       if ((flags >> i & 1) != 0 && adjacency.beyond(face, i) == other) return true;
     return false;
@@ -110,22 +105,20 @@ struct CameraScene {
 
   /// A vertex, camera frame, m.
   Eigen::Vector3d vertex(std::int32_t index) const {
-    const auto at = static_cast<std::size_t>(index);
-    const Placement& placed = at < first_in_camera ? station_ : camera_;
-    const Eigen::Vector3d point = placed.place(mesh.vertices_in_station_m[at].cast<double>());
+    const bool in_station = static_cast<std::size_t>(index) < first_in_camera;
+    const Placement& placed = in_station ? station_ : camera_;
+    const Eigen::Vector3d point = placed.place(mesh.vertex(index));
     return pupil_moves_ ? seenFromPupil(rays_camera_, point) : point;
   }
   /// The corners of a face, camera frame, m.
   Corners corners(std::int32_t face) const {
-    const Face indices = mesh.faces[static_cast<std::size_t>(face)];
+    const Face indices = nth(mesh.faces, face);
     return {vertex(indices.vertex[0]), vertex(indices.vertex[1]), vertex(indices.vertex[2])};
   }
   /// The part that a face belongs to.
   const ScenePart& part(std::int32_t face) const { return mesh.parts[partIndex(face)]; }
   /// Index of a face's part in the mesh's parts.
-  std::size_t partIndex(std::int32_t face) const {
-    return mesh.part_of_face[static_cast<std::size_t>(face)];
-  }
+  std::size_t partIndex(std::int32_t face) const { return nth(mesh.part_of_face, face); }
 
  private:
   /// A pose as rotation matrix and translation.
@@ -146,10 +139,6 @@ struct CameraScene {
 
   void transformBy(const Placement& placed, const RayGrid& rays, std::size_t first,
                    std::size_t last);
-  void projectPinhole(const Camera& camera, const double* x_m, const double* y_m, const double* z_m,
-                      std::span<FixedPixel> pixels) const;
-  void projectDistorted(const Camera& camera, const double* x_m, const double* y_m,
-                        const double* z_m, std::span<FixedPixel> pixels) const;
   Eigen::Vector3d outerNormal(std::size_t face) const;
   bool normalIsKnown(std::size_t face, const Eigen::Vector3d& normal) const;
   void setFlags(std::size_t face);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/image.h"
+#include "core/base/nth.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 
@@ -27,6 +28,11 @@ struct EdgePixel {
   std::int8_t offset =
       0;  ///< signed distance from pixel centre to the line along that normal, 1/100 px
   std::uint8_t kind = 0;  ///< EdgeKind bits
+
+  /// normal_x and normal_y as a vector of about unit length.
+  Eigen::Vector2d normal() const { return Eigen::Vector2d(normal_x, normal_y) / 127.0; }
+  /// The point of the line nearest to the pixel's centre, px.
+  Eigen::Vector2d onLine_px() const { return Eigen::Vector2d(x, y) + 0.01 * offset * normal(); }
 };
 
 /// An edge pixel as stored in a render, without its row, which follows from EdgeRender::row_begin.
@@ -95,6 +101,10 @@ struct EdgeRender {
 
   /// An edge pixel by its index; searches its row.
   EdgePixel pixel(std::int32_t index) const;
+  /// The stride that leaves at most `most` edge pixels.
+  std::int32_t strideFor(std::int32_t most) const {
+    return std::max(1, (pixel_count + most - 1) / most);
+  }
   /// Every `stride`-th edge pixel, to iterate over.
   EdgePixelRange eachPixel(std::int32_t stride = 1) const;
 };
@@ -111,9 +121,7 @@ class EdgePixelRange {
       findRow();
     }
     /// The pixel.
-    EdgePixel operator*() const {
-      return render_->pixels[static_cast<std::size_t>(index_)].unpacked(y_);
-    }
+    EdgePixel operator*() const { return nth(render_->pixels, index_).unpacked(y_); }
     /// The next pixel.
     Iterator& operator++() {
       index_ += stride_;
@@ -152,7 +160,7 @@ inline EdgePixelRange EdgeRender::eachPixel(std::int32_t stride) const { return 
 inline EdgePixel EdgeRender::pixel(std::int32_t index) const {
   const auto first = row_begin.begin();
   const auto row = std::upper_bound(first, first + edges.height, index);
-  return pixels[static_cast<std::size_t>(index)].unpacked(static_cast<int>(row - first) - 1);
+  return nth(pixels, index).unpacked(static_cast<int>(row - first) - 1);
 }
 
 }  // namespace boresight

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/render/surface_render.h"
 
 namespace boresight {
@@ -36,18 +37,18 @@ EdgeRender createEdgeRender(int width, int height, std::int32_t max_edge_pixels,
   render.mask = BitImage::create(arena, width, height);
   render.edge_words = render.edges.words;
   render.mask_words = render.mask.words;
-  render.pixels = arena.allocate<PackedEdgePixel>(static_cast<std::size_t>(max_edge_pixels));
+  render.pixels = arena.allocate<PackedEdgePixel>(max_edge_pixels);
   render.row_begin = arena.allocate<std::int32_t>(static_cast<std::size_t>(height) + 1);
   return render;
 }
 
 std::int32_t findEdgePixel(const EdgeRender& render, int x, int y) {
   if (!render.edges.contains(x, y) || !render.edges.get(x, y)) return -1;
-  std::int32_t low = render.row_begin[static_cast<std::size_t>(y)];
+  std::int32_t low = nth(render.row_begin, y);
   std::int32_t high = render.row_begin[static_cast<std::size_t>(y) + 1];
   while (low < high) {
     const std::int32_t middle = low + (high - low) / 2;
-    const int at = render.pixels[static_cast<std::size_t>(middle)].x();
+    const int at = nth(render.pixels, middle).x();
     if (at == x) return middle;
     if (at < x)
       low = middle + 1;
@@ -76,13 +77,8 @@ bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh, const EdgePix
   Ray ray;
   if (!unprojectRay(render.camera, position_px, ray)) return false;
 
-  const Face face = mesh.faces[static_cast<std::size_t>(pixel.face)];
-  Eigen::Vector3d corner[3];
-  for (std::size_t i = 0; i < 3; ++i)
-    corner[i] =
-        render.camera_from_station *
-            mesh.vertices_in_station_m[static_cast<std::size_t>(face.vertex[i])].cast<double>() -
-        ray.origin_m;
+  Corners corner = mesh.corners(static_cast<std::size_t>(pixel.face));
+  for (Eigen::Vector3d& point : corner) point = render.camera_from_station * point - ray.origin_m;
   const Eigen::Vector3d normal = crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
   // On the face's plane, and no nearer or farther than the face itself where the plane is steep.
   const double farthest = std::max({corner[0].z(), corner[1].z(), corner[2].z()});
@@ -121,11 +117,11 @@ void EdgeRenderer::createWorkers(int workers, int max_pixels, const RenderOption
                                  Arena& kept, Arena& scratch) {
   workers_ = {};
   if (workers < 2) return;
-  workers_ = kept.allocate<Worker>(static_cast<std::size_t>(workers));
-  blocks_ = scratch.allocate<Block>(static_cast<std::size_t>(mostTasks(workers)));
+  workers_ = kept.allocate<Worker>(workers);
+  blocks_ = scratch.allocate<Block>(mostTasks(workers));
   for (int i = 0; i < workers; ++i) {
     Worker counted;
-    Worker& worker = workers_.empty() ? counted : workers_[static_cast<std::size_t>(i)];
+    Worker& worker = workers_.empty() ? counted : nth(workers_, i);
     // The first worker's memory equals that of a render by one worker.
     worker.painter = i == 0 ? painter_ : BandPainter::create(max_width_, band_rows_, scratch);
     worker.pixels = scratch.allocate<PackedEdgePixel>(
@@ -225,10 +221,7 @@ Status EdgeRenderer::stepAlone(bool& done) {
   }
   const std::size_t count = itemsOf(phase_);
   const std::size_t last = std::min(next_ + kSlice, count);
-  if (phase_ == Phase::kVertices)
-    scene_.transform(*rays_, next_, last);
-  else
-    bins_.add(scene_, *rays_, next_, last, 0);
+  prepare(next_, last, 0);
   next_ = last;
   if (last == count) enter(phase_ == Phase::kVertices ? Phase::kFaces : Phase::kBands);
   return Status::kOk;
@@ -243,10 +236,15 @@ void EdgeRenderer::runTask(int task, int worker) {
   const auto tasks = static_cast<std::size_t>(task_count_);
   const std::size_t first = count * static_cast<std::size_t>(task) / tasks;
   const std::size_t last = count * (static_cast<std::size_t>(task) + 1) / tasks;
+  prepare(first, last, task);
+}
+
+/// Vertices or faces of the phase.
+void EdgeRenderer::prepare(std::size_t first, std::size_t last, int share) {
   if (phase_ == Phase::kVertices)
     scene_.transform(*rays_, first, last);
   else
-    bins_.add(scene_, *rays_, first, last, task);
+    bins_.add(scene_, *rays_, first, last, share);
 }
 
 /// Divides the bands with faces into equal blocks; the outermost blocks also take the bands above
@@ -260,16 +258,14 @@ int EdgeRenderer::beginOfBlock(int block) const {
 /// Bits are written to rows of the output that belong to this block; edge pixels to the worker's
 /// list, with row indices relative to the block's first pixel.
 void EdgeRenderer::drawBlock(int index, int worker_index) {
-  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
-  Block& block = blocks_[static_cast<std::size_t>(index)];
+  Worker& worker = nth(workers_, worker_index);
+  Block& block = nth(blocks_, index);
   EdgeRender rows = *output_;
   rows.pixels = worker.pixels.subspan(static_cast<std::size_t>(worker.pixel_count));
   rows.pixel_count = 0;
   const BandSource source = this->source();
   worker.painter.begin(source, beginOfBlock(index), beginOfBlock(index + 1), rows);
-  bool done = false;
-  Status status = Status::kOk;
-  while (!done) status = worker.painter.step(source, rows, done);
+  const Status status = worker.painter.drawAll(source, rows);
   block = {worker_index, worker.pixel_count, rows.pixel_count, status == Status::kOk};
   worker.pixel_count += rows.pixel_count;
 }
@@ -281,12 +277,12 @@ Status EdgeRenderer::joinBlocks() {
   const int height = output.camera.height;
   bool fits = true;
   for (int index = 0; index < task_count_ && fits; ++index) {
-    const Block& block = blocks_[static_cast<std::size_t>(index)];
+    const Block& block = nth(blocks_, index);
     const auto begin = static_cast<std::size_t>(output.pixel_count);
     const auto count = static_cast<std::size_t>(block.count);
     fits = block.complete && count <= output.pixels.size() - begin;
     if (!fits) break;
-    const Worker& worker = workers_[static_cast<std::size_t>(block.worker)];
+    const Worker& worker = nth(workers_, block.worker);
     std::copy_n(worker.pixels.begin() + block.first, block.count,
                 output.pixels.begin() + output.pixel_count);
     const int first_row = BandPainter::firstRow(beginOfBlock(index), band_rows_);
@@ -300,10 +296,7 @@ Status EdgeRenderer::joinBlocks() {
   if (fits) return Status::kOk;
   SalientEdges::clear(output);
   painter_.begin(source(), 0, source().bands(), output);
-  bool done = false;
-  Status status = Status::kOk;
-  while (!done) status = painter_.step(source(), output, done);
-  return status;
+  return painter_.drawAll(source(), output);
 }
 
 }  // namespace boresight

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -78,7 +80,7 @@ void FaceBins::begin(const CameraScene& scene, const RayGrid& rays, int band_row
   first_of_kind_[kSmallBack] = bands;
   levels_ = 0;
   for (int first = 2 * bands; levels_ < kMostLevels; ++levels_) {
-    first_of_level_[static_cast<std::size_t>(levels_)] = first;
+    nth(first_of_level_, levels_) = first;
     first += ((bands - 1) >> levels_) + 1;
     if ((bands - 1) >> levels_ == 0) break;
   }
@@ -97,8 +99,7 @@ std::int32_t FaceBins::firstFace(int band, int list) const {
   int block = level >= 0 ? band >> level : band;
   if (relation == 2) --block;
   if (block < 0) return -1;
-  const int first = level >= 0 ? first_of_level_[static_cast<std::size_t>(level)]
-                               : first_of_kind_[static_cast<std::size_t>(-1 - level)];
+  const int first = level >= 0 ? nth(first_of_level_, level) : nth(first_of_kind_, -1 - level);
   return head_[static_cast<std::size_t>(share) * heads_ +
                static_cast<std::size_t>((first + block) * 2 + (relation > 0 ? 1 : 0))];
 }
@@ -108,14 +109,13 @@ std::int32_t FaceBins::firstFace(int band, int list) const {
   const int first_band = bounds.y_first / band_rows_;
   const int last_band = bounds.y_last / band_rows_;
   for (int band = first_band; band <= last_band; ++band)
-    share.columns[static_cast<std::size_t>(band)].include(bounds.x_first, bounds.x_last);
+    nth(share.columns, band).include(bounds.x_first, bounds.x_last);
   int level = 0;
   while ((last_band >> level) - (first_band >> level) > 1) ++level;
   const int block = first_band >> level;
   const int further = (last_band >> level) - block;
-  const int first = kind == kWide || level > 0 ? first_of_level_[static_cast<std::size_t>(level)]
-                                               : first_of_kind_[kind];
-  std::int32_t& head = share.head[static_cast<std::size_t>((first + block) * 2 + further)];
+  const int first = kind == kWide || level > 0 ? nth(first_of_level_, level) : first_of_kind_[kind];
+  std::int32_t& head = nth(share.head, (first + block) * 2 + further);
   next_.set(static_cast<std::size_t>(face), head);
   head = face;
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/arena.h"
 #include "core/base/index_list.h"
+#include "core/base/nth.h"
 #include "core/render/camera_scene.h"
 #include "core/render/ray_grid.h"
 #include "core/render/small_face.h"
@@ -40,7 +41,7 @@ class FaceBins {
   void finish();
 
   /// Columns that the faces of a band may cover.
-  const Columns& columns(int band) const { return columns_[static_cast<std::size_t>(band)]; }
+  const Columns& columns(int band) const { return nth(columns_, band); }
 
   /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. lists() -
   /// 1, those from firstSmallList() on of small faces. Some of the listed faces lie in other bands
@@ -50,7 +51,7 @@ class FaceBins {
   int firstSmallList() const { return 3 * levels_ * shares_; }
   std::int32_t firstFace(int band, int list) const;  ///< First face of a list; -1: none
   /// The face after `face` in its list; -1: none.
-  std::int32_t nextFace(std::int32_t face) const { return next_[static_cast<std::size_t>(face)]; }
+  std::int32_t nextFace(std::int32_t face) const { return nth(next_, face); }
 
   /// The object that draws the small faces.
   const SmallFaces& smallFaces() const { return small_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/nth.h"
 #include "core/render/drawn_face.h"
 #include "core/render/rounding.h"
 
@@ -285,7 +286,7 @@ RasterBand RasterBand::create(int width, int rows, Arena& arena) {
   band.ray_y = arena.allocate<double>(pixels);
   band.inverse_depth = arena.allocate<float>(pixels);
   band.face = arena.allocate<std::int32_t>(pixels);
-  band.valid = arena.allocate<std::uint8_t>(static_cast<std::size_t>(width));
+  band.valid = arena.allocate<std::uint8_t>(width);
   return band;
 }
 
@@ -324,9 +325,8 @@ void RasterBand::advance(const RayGrid& rays, int y, int count, int x_first, int
     } else {
       // An infinitely near background keeps surfaces off pixels without a ray.
       for (int i = 0; i < length; ++i) {
-        depth_row[i] =
-            valid[static_cast<std::size_t>(i)] != 0 ? 0.0F : std::numeric_limits<float>::infinity();
-        face_row[i] = valid[static_cast<std::size_t>(i)] != 0 ? kBackground : kInvalid;
+        depth_row[i] = nth(valid, i) != 0 ? 0.0F : std::numeric_limits<float>::infinity();
+        face_row[i] = nth(valid, i) != 0 ? kBackground : kInvalid;
       }
     }
   }

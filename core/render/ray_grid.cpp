@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/nth.h"
 #include "core/render/camera_scene.h"
 #include "core/render/ray_stencil.h"
 #include "core/render/rounding.h"
@@ -108,8 +109,8 @@ Status RayGrid::create(const Camera& camera, Arena& arena, RayGrid& grid) {
   grid.node_valid_ = arena.allocate<std::uint8_t>(nodes);
   grid.cell_exact_ = arena.allocate<std::uint8_t>(static_cast<std::size_t>(grid.cells_x_) *
                                                   static_cast<std::size_t>(grid.cells_y_));
-  grid.row_hull_ = arena.allocate<Hull>(static_cast<std::size_t>(grid.cells_y_));
-  grid.column_hull_ = arena.allocate<Hull>(static_cast<std::size_t>(grid.cells_x_));
+  grid.row_hull_ = arena.allocate<Hull>(grid.cells_y_);
+  grid.column_hull_ = arena.allocate<Hull>(grid.cells_x_);
   if (arena.countsOnly()) return Status::kOk;
   if (arena.exhausted()) return Status::kArenaTooSmall;
 
@@ -134,6 +135,14 @@ bool RayGrid::nodeValid(int column, int row) const {
                      static_cast<std::size_t>(column)] != 0;
 }
 
+/// Whether all nodes of a square have a ray.
+bool RayGrid::nodesValid(int first_column, int first_row, int count) const {
+  for (int row = first_row; row < first_row + count; ++row)
+    for (int column = first_column; column < first_column + count; ++column)
+      if (!nodeValid(column, row)) return false;
+  return true;
+}
+
 void RayGrid::fillNodes() {
   std::size_t index = 0;
   for (int row = 0; row < nodes_y_; ++row) {
@@ -154,9 +163,7 @@ void RayGrid::measureBends() {
   double line_bend = 0.0;
   for (int row = kMargin - 1; row <= cells_y_ + kMargin; ++row) {
     for (int column = kMargin - 1; column <= cells_x_ + kMargin; ++column) {
-      bool valid = true;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) valid = valid && nodeValid(column + dx, row + dy);
+      const bool valid = nodesValid(column - 1, row - 1, 3);
       smooth_ = smooth_ && valid;
       Patch patch;
       if (valid) {
@@ -192,13 +199,11 @@ void RayGrid::fillHulls() {
   };
   for (int cell_y = 0; cell_y < cells_y_; ++cell_y) {
     for (int cell_x = 0; cell_x < cells_x_; ++cell_x) {
-      Hull& of_row = row_hull_[static_cast<std::size_t>(cell_y)];
-      Hull& of_column = column_hull_[static_cast<std::size_t>(cell_x)];
+      Hull& of_row = nth(row_hull_, cell_y);
+      Hull& of_column = nth(column_hull_, cell_x);
       const int first_column = cell_x + kMargin - 1;
       const int first_row = cell_y + kMargin - 1;
-      bool valid = true;
-      for (int i = 0; i < 16; ++i)
-        valid = valid && nodeValid(first_column + i % 4, first_row + i / 4);
+      const bool valid = nodesValid(first_column, first_row, 4);
       for (int i = 0; valid && i < 16; ++i) {
         const Node& at = node(first_column + i % 4, first_row + i / 4);
         include(of_row, at.y);
@@ -222,15 +227,11 @@ void RayGrid::fillHulls() {
 bool RayGrid::chooseStencils() {
   bool enough = true;
   const int before = wide_stencil_ ? 2 : 1;
-  const int after = wide_stencil_ ? 3 : 2;
   for (int cell_y = 0; cell_y < cells_y_; ++cell_y) {
     for (int cell_x = 0; cell_x < cells_x_; ++cell_x) {
-      bool valid = true;
-      for (int dy = -before; dy <= after; ++dy)
-        for (int dx = -before; dx <= after; ++dx)
-          valid = valid && nodeValid(cell_x + kMargin + dx, cell_y + kMargin + dy);
-      bool exact = !valid;
-      if (valid) {
+      bool exact =
+          !nodesValid(cell_x + kMargin - before, cell_y + kMargin - before, 2 * before + 2);
+      if (!exact) {
         const bool good = wide_stencil_ ? checkCell<6>(cell_x, cell_y, kWideTolerance)
                                         : checkCell<4>(cell_x, cell_y, kTolerance);
         enough = enough && good;
@@ -257,8 +258,7 @@ bool RayGrid::checkCell(int cell_x, int cell_y, double tolerance) const {
     for (int i = 0; i < kNodes; ++i) {
       const Node& at =
           node(cell_x + kMargin + i - (kNodes / 2 - 1), cell_y + kMargin + j - (kNodes / 2 - 1));
-      const double weight =
-          weights[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(j)];
+      const double weight = nth(weights, i) * nth(weights, j);
       x_over_z += weight * at.x;
       y_over_z += weight * at.y;
     }
@@ -302,8 +302,8 @@ void RayGrid::interpolateRow(int y, int x_begin, int x_end, double* x_over_z, do
     double sum_y = 0.0;
     for (int j = 0; j < kNodes; ++j) {
       const Node& at = first_node[column + j * nodes_x_];
-      sum_x += weights[static_cast<std::size_t>(j)] * at.x;
-      sum_y += weights[static_cast<std::size_t>(j)] * at.y;
+      sum_x += nth(weights, j) * at.x;
+      sum_y += nth(weights, j) * at.y;
     }
     column_x[kNodes - 1] = sum_x;
     column_y[kNodes - 1] = sum_y;
@@ -339,30 +339,29 @@ void RayGrid::row(int y, int x_begin, int count, double* x_over_z, double* y_ove
   }
 }
 
+/// Pixels of the cells, along an axis of `size` pixels, whose hulls meet [minimum, maximum].
+RayGrid::Range RayGrid::rangeWithin(std::span<const Hull> hulls, int size, double minimum,
+                                    double maximum) {
+  Range range;
+  for (int cell = 0; cell < static_cast<int>(hulls.size()); ++cell) {
+    const Hull& hull = nth(hulls, cell);
+    if (hull.maximum < minimum || hull.minimum > maximum) continue;
+    if (range.last < 0) range.first = cell * kSpacing;
+    range.last = std::min((cell + 1) * kSpacing, size) - 1;
+  }
+  return range;
+}
+
 RayGrid::Range RayGrid::rowsWithin(double minimum, double maximum) const {
   if (camera_.model == CameraModel::kPinhole)
     return pinholeRange(minimum, maximum, camera_.fy, camera_.cy, camera_.height);
-  Range range;
-  for (int cell = 0; cell < cells_y_; ++cell) {
-    const Hull& hull = row_hull_[static_cast<std::size_t>(cell)];
-    if (hull.maximum < minimum || hull.minimum > maximum) continue;
-    if (range.last < 0) range.first = cell * kSpacing;
-    range.last = std::min((cell + 1) * kSpacing, camera_.height) - 1;
-  }
-  return range;
+  return rangeWithin(row_hull_, camera_.height, minimum, maximum);
 }
 
 RayGrid::Range RayGrid::columnsWithin(double minimum, double maximum) const {
   if (camera_.model == CameraModel::kPinhole)
     return pinholeRange(minimum, maximum, camera_.fx, camera_.cx, camera_.width);
-  Range range;
-  for (int cell = 0; cell < cells_x_; ++cell) {
-    const Hull& hull = column_hull_[static_cast<std::size_t>(cell)];
-    if (hull.maximum < minimum || hull.minimum > maximum) continue;
-    if (range.last < 0) range.first = cell * kSpacing;
-    range.last = std::min((cell + 1) * kSpacing, camera_.width) - 1;
-  }
-  return range;
+  return rangeWithin(column_hull_, camera_.width, minimum, maximum);
 }
 
 }  // namespace boresight

@@ -65,6 +65,7 @@ class RayGrid {
 
   const Node& node(int column, int row) const;
   bool nodeValid(int column, int row) const;
+  bool nodesValid(int first_column, int first_row, int count) const;
   void fillNodes();
   void measureBends();
   void fillHulls();
@@ -74,6 +75,7 @@ class RayGrid {
   template <int kNodes>
   void interpolateRow(int y, int x_begin, int x_end, double* x_over_z, double* y_over_z,
                       std::uint8_t* valid) const;
+  static Range rangeWithin(std::span<const Hull> hulls, int size, double minimum, double maximum);
   void unprojectRun(int y, int x_begin, int x_end, double* x_over_z, double* y_over_z,
                     std::uint8_t* valid) const;
 

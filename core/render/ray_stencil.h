@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "core/base/nth.h"
+
 /// Interpolation between the nodes of a RayGrid: polynomials through an even number of equidistant
 /// nodes, of which the two in the middle hold the cell that is interpolated.
 namespace boresight::stencil {
@@ -45,7 +47,7 @@ std::array<double, kNodes> lagrangeWeights(int i) {
     double weight = 1.0;
     for (int j = 0; j < kNodes; ++j)
       if (j != k) weight *= (s - j) / (k - j);
-    weights[static_cast<std::size_t>(k)] = weight;
+    nth(weights, k) = weight;
   }
   return weights;
 }

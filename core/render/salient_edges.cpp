@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/base/nth.h"
 #include "core/render/rounding.h"
 
 namespace boresight {
@@ -323,16 +324,11 @@ Eigen::Vector3d SalientEdges::lineAt(const Context& context, const Crossing& cro
   if (crossing.edge_of < 0 || crossing.edge < 0 ||
       !unprojectRay(output.camera, Eigen::Vector2d(x, y), ray))
     return crossing.line;
-  const MeshView& mesh = context.scene.mesh;
-  const Face face = mesh.faces[static_cast<std::size_t>(crossing.edge_of)];
-  Eigen::Vector3d end[2];
-  for (int i = 0; i < 2; ++i) {
-    const auto corner = static_cast<std::size_t>((crossing.edge + i) % 3);
-    const auto vertex = static_cast<std::size_t>(face.vertex[corner]);
-    end[i] = output.camera_from_station * mesh.vertices_in_station_m[vertex].cast<double>() -
-             ray.origin_m;
-  }
-  const Eigen::Vector3d line = crossProduct(end[0], end[1]);
+  const Corners corners = context.scene.mesh.corners(static_cast<std::size_t>(crossing.edge_of));
+  const auto seen = [&](int corner) {
+    return Eigen::Vector3d(output.camera_from_station * nth(corners, corner % 3) - ray.origin_m);
+  };
+  const Eigen::Vector3d line = crossProduct(seen(crossing.edge), seen(crossing.edge + 1));
   return dotProduct(line, crossing.line) < 0.0 ? Eigen::Vector3d(-line) : line;
 }
 
@@ -389,7 +385,7 @@ Eigen::Vector3d SalientEdges::lineAt(const Context& context, const Crossing& cro
   pixel.normal_y = rounded8(normal_y * 127.0);
   pixel.offset = rounded8(distance_px * 100.0);
 
-  EdgePixel& slot = candidates_[static_cast<std::size_t>((y & 1) * stride_ + marked.x)];
+  EdgePixel& slot = nth(candidates_, (y & 1) * stride_ + marked.x);
   BitImage& edges = context.output.edges;
   if (!edges.get(marked.x, y) || preferred(pixel, slot)) slot = pixel;
   edges.set(marked.x, y);
@@ -456,8 +452,8 @@ Status SalientEdges::finishRow(const Context& context, int row) {
         endRows(y, output);
         return Status::kCapacityExceeded;
       }
-      output.pixels[static_cast<std::size_t>(output.pixel_count++)] =
-          PackedEdgePixel(candidates_[static_cast<std::size_t>((y & 1) * stride_ + x)]);
+      nth(output.pixels, output.pixel_count++) =
+          PackedEdgePixel(nth(candidates_, (y & 1) * stride_ + x));
     }
   }
   output.row_begin[static_cast<std::size_t>(y) + 1] = output.pixel_count;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/base/nth.h"
 #include "core/render/drawn_face.h"
 #include "core/render/rounding.h"
 
@@ -18,10 +19,10 @@ struct DepthRange {
 };
 
 DepthRange depthRange(const CameraScene& scene, std::int32_t face) {
-  const Face indices = scene.mesh.faces[static_cast<std::size_t>(face)];
-  const std::uint16_t a = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[0])];
-  const std::uint16_t b = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[1])];
-  const std::uint16_t c = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[2])];
+  const Face indices = nth(scene.mesh.faces, face);
+  const std::uint16_t a = nth(scene.vertex_depth, indices.vertex[0]);
+  const std::uint16_t b = nth(scene.vertex_depth, indices.vertex[1]);
+  const std::uint16_t c = nth(scene.vertex_depth, indices.vertex[2]);
   return {std::min({a, b, c}), std::max({a, b, c})};
 }
 
@@ -198,10 +199,10 @@ SmallFaces::SmallFaces(const CameraScene& scene, const RayGrid& rays) : scale_(s
 }
 
 void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& band) const {
-  const Face indices = scene.mesh.faces[static_cast<std::size_t>(face)];
-  const FixedFace fixed(scene.vertex_px[static_cast<std::size_t>(indices.vertex[0])],
-                        scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])],
-                        scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])]);
+  const Face indices = nth(scene.mesh.faces, face);
+  const FixedFace fixed(nth(scene.vertex_px, indices.vertex[0]),
+                        nth(scene.vertex_px, indices.vertex[1]),
+                        nth(scene.vertex_px, indices.vertex[2]));
   PixelBox box = this->box(fixed);
   const int top = band.first_y - scale_.middle_y;
   box.x_first = std::max(box.x_first, band.x_begin - scale_.middle_x);

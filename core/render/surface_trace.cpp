@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -25,7 +27,7 @@ inline Exit findExit(const FaceCache::Edges& face, double sign, int entered_thro
   Exit exit;
   for (int i = 0; i < 3; ++i) {
     if (i == entered_through) continue;
-    const Eigen::Vector3d& line = face.line[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d& line = nth(face.line, i);
     const double to = sign * dotProduct(line, ray_to);
     if (!(to <= 0.0)) continue;
     const double from = sign * dotProduct(line, ray_from);
@@ -38,12 +40,12 @@ inline Exit findExit(const FaceCache::Edges& face, double sign, int entered_thro
 
 /// The corner of a face that is not on the edge to another face; -1: none.
 inline int cornerBeyond(const MeshView& mesh, std::int32_t face, int edge, std::int32_t beyond) {
-  const Face from = mesh.faces[static_cast<std::size_t>(face)];
-  const Face to = mesh.faces[static_cast<std::size_t>(beyond)];
+  const Face from = nth(mesh.faces, face);
+  const Face to = nth(mesh.faces, beyond);
   const auto first = static_cast<std::size_t>(edge);
   const std::size_t second = (first + 1) % 3;
   for (int i = 2; i >= 0; --i) {
-    const auto vertex = to.vertex[static_cast<std::size_t>(i)];
+    const auto vertex = nth(to.vertex, i);
     if (vertex != from.vertex[first] && vertex != from.vertex[second]) return i;
   }
   return -1;
@@ -52,7 +54,7 @@ inline int cornerBeyond(const MeshView& mesh, std::int32_t face, int edge, std::
 /// A face folds back behind the surface when its third corner lies on the surface's side of the
 /// edge; this does not depend on the orientation of the mesh.
 bool foldsBack(const Corners& face, int third, const Eigen::Vector3d& line) {
-  return third < 0 || !(dotProduct(line, face[static_cast<std::size_t>(third)]) < 0.0);
+  return third < 0 || !(dotProduct(line, nth(face, third)) < 0.0);
 }
 
 int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighbour) {
@@ -63,17 +65,11 @@ int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighb
 
 /// The neighbour along a face's longest edge, that to `from` (-1: none) left out.
 std::int32_t acrossLongestEdge(const CameraScene& scene, std::int32_t face, std::int32_t from) {
-  const Face indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const Corners corner = scene.mesh.corners(static_cast<std::size_t>(face));
   std::int32_t across = -1;
   double longest2 = -1.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d begin =
-        scene.mesh.vertices_in_station_m[static_cast<std::size_t>(indices.vertex[i])]
-            .cast<double>();
-    const Eigen::Vector3d end =
-        scene.mesh.vertices_in_station_m[static_cast<std::size_t>(indices.vertex[(i + 1) % 3])]
-            .cast<double>();
-    const Eigen::Vector3d side = end - begin;
+    const Eigen::Vector3d side = corner[(i + 1) % 3] - corner[i];
     const double side2 = dotProduct(side, side);
     const std::int32_t beyond = scene.adjacency.beyond(face, static_cast<int>(i));
     if (side2 <= longest2 || (from >= 0 && beyond == from)) continue;
@@ -151,7 +147,7 @@ SurfaceEnd traceSurface(const CameraScene& scene, FaceCache& faces, std::int32_t
     end.ends = exit.edge >= 0;
     end.s = exit.s;
     if (!end.ends) break;
-    end.line = sign * face.line[static_cast<std::size_t>(exit.edge)];
+    end.line = sign * nth(face.line, exit.edge);
     end.edge = static_cast<std::int8_t>(exit.edge);
     if (hop == kMaxHops) break;
 

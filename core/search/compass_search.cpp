@@ -19,26 +19,24 @@ constexpr double kDepthStep = 0.05;
 
 bool CompassSearch::takePlaces(const MeshView& mesh, const EdgeRender& render) {
   camera_ = render.camera;
-  count_ = 0;
+  places_.clear();
   takeEvenly(render, [&](const EdgePixel& pixel) {
-    Place& place = places_[static_cast<std::size_t>(count_)];
+    Place place;
     Eigen::Vector2d position_px;
     if (!edgeLinePoint(render, mesh, pixel, position_px, place.point_in_station_m)) return;
     place.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y);
-    ++count_;
+    places_.add(place);
   });
-  return count_ > 0;
+  return places_.size() > 0;
 }
 
 int CompassSearch::sumAt(const SlideSums& maps, const State& state) const {
-  const Eigen::Matrix3d rotation = state.view_from_station.matrix();
-  const Eigen::Vector3d& translation_m = state.view_from_station.translation_m;
+  const PoseMatrix view_from_station(state.view_from_station);
   const double c = cos(state.roll_rad);
   const double s = sin(state.roll_rad);
   int sum = 0;
-  for (int i = 0; i < count_; ++i) {
-    const Place& place = places_[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d point = rotation * place.point_in_station_m + translation_m;
+  for (const Place& place : places_.items()) {
+    const Eigen::Vector3d point = view_from_station * place.point_in_station_m;
     if (!(point.z() > 0.0)) {
       sum += SlideSums::kFarthestStep;
       continue;
@@ -89,7 +87,7 @@ double CompassSearch::descend(const SlideSums& maps, const Eigen::Vector3d& midd
   }
   view_from_station = best.view_from_station;
   view_from_station.rotation.normalize();
-  return SlideSums::kStep_px * least / count_;
+  return SlideSums::kStep_px * least / places_.size();
 }
 
 }  // namespace boresight

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include <Eigen/Core>
 
+#include "core/base/fixed_list.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
@@ -40,8 +39,7 @@ class CompassSearch {
   int sumAt(const SlideSums& maps, const State& state) const;
 
   Camera camera_;
-  std::array<Place, SlideSums::kMaxPlaces> places_;
-  int count_ = 0;
+  FixedList<Place, SlideSums::kMaxPlaces> places_;
 };
 
 /// Whether the pixel belongs to an outline.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/edges/direction_distance.h"
 #include "core/geometry/surface_axes.h"
 #include "core/search/pose_evidence_meter.h"
@@ -129,11 +130,7 @@ void CompetingPoseTest::beginRender(const Pose& view_from_station, Purpose purpo
 }
 
 void CompetingPoseTest::stepRender() {
-  bool complete = false;
-  const Status status = rendering_ ? renderer_->stepWhole(complete)
-                                   : renderer_->begin(view_edges_.rays(), current_, render_, {},
-                                                      view_edges_.view().view_from_camera);
-  rendering_ = status == Status::kOk && !complete;
+  const Status status = view_edges_.render(*renderer_, current_, render_, rendering_);
   if (rendering_) return;
   if (status == Status::kOk)
     takeRender();
@@ -210,7 +207,7 @@ void CompetingPoseTest::stepSlides() {
 
 /// Moves the hypothesis towards the image's edges, from its render.
 void CompetingPoseTest::refine() {
-  const Scale& scale = kScales[static_cast<std::size_t>(scale_)];
+  const Scale& scale = nth(kScales, scale_);
   Pose moved = current_;
   refinement_.takePlaces(problem_.mesh, render_);
   const bool met =
@@ -224,7 +221,7 @@ void CompetingPoseTest::refine() {
   promising_[competitor_] = current_;
   if (scale_ == kLastScale) return beginRender(current_, Purpose::kCompeting);
   ++scale_;
-  beginView(kScales[static_cast<std::size_t>(scale_)].span_px, Purpose::kRefine);
+  beginView(nth(kScales, scale_).span_px, Purpose::kRefine);
 }
 
 void CompetingPoseTest::nextHypothesis() {
@@ -255,8 +252,8 @@ void CompetingPoseTest::markRender(DirectedEdges& marks) const {
   const auto pixels = static_cast<std::ptrdiff_t>(marks.width) * marks.height;
   std::fill(marks.direction.begin(), marks.direction.begin() + pixels, DirectedEdges::kNone);
   for (const EdgePixel& pixel : render_.eachPixel()) {
-    marks.direction[static_cast<std::size_t>(pixel.y * marks.width + pixel.x)] =
-        static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
+    nth(marks.direction, pixel.y * marks.width + pixel.x) =
+        edgeDirectionOf(pixel.normal_x, pixel.normal_y);
   }
 }
 
@@ -270,7 +267,7 @@ void CompetingPoseTest::addAlone(const DirectedEdges& others, Prediction& predic
     for (int x = 0; x < places.width; ++x) {
       if (places.at(x, y) != direction_ || image.at(x, y) == DirectedEdges::kUnseen) continue;
       ++prediction.all;
-      if (apart_[static_cast<std::size_t>(y * places.width + x)] <= kSamePlace) continue;
+      if (nth(apart_, y * places.width + x) <= kSamePlace) continue;
       ++prediction.alone;
       const EvidencePlace place{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
                                 static_cast<std::uint8_t>(direction_)};

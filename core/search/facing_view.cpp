@@ -7,10 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
-constexpr int kShareBits = 8;
+constexpr int kFractionBits = 8;  ///< of the weights of a block's outer pixels
 /// Objects smaller than this are magnified, at most by the factor. Edges some pixels around a place
 /// are otherwise those of the object itself, and explain its evidence away.
 constexpr double kLeastSpan_px = 130.0;
@@ -18,43 +20,33 @@ constexpr double kMostMagnification = 2.0;
 /// Rays farther off the view's axis than this (87 deg) are outside the view.
 constexpr double kLeastZ = 0.05;
 
-/// A box of tangents (x/z, y/z).
-struct TangentBox {
-  Eigen::Vector2d least = Eigen::Vector2d::Constant(1e9);
-  Eigen::Vector2d most = Eigen::Vector2d::Constant(-1e9);
-
-  void extend(const Eigen::Vector3d& ray) {
-    const Eigen::Vector2d tangent(ray.x() / ray.z(), ray.y() / ray.z());
-    least = least.cwiseMin(tangent);
-    most = most.cwiseMax(tangent);
-  }
-};
+/// The tangents (x/z, y/z) of a ray.
+Eigen::Vector2d tangentOf(const Eigen::Vector3d& ray) {
+  return {ray.x() / ray.z(), ray.y() / ray.z()};
+}
 
 /// Bounds of the matched parts in the view.
-TangentBox boxOfScene(const MeshView& mesh, const Pose& view_from_station) {
-  TangentBox box;
-  const Eigen::Matrix3d rotation = view_from_station.matrix();
+Eigen::AlignedBox2d boxOfScene(const MeshView& mesh, const PoseMatrix& view_from_station) {
+  Eigen::AlignedBox2d box;
   // All vertices below are included: a mesh usually counts them in the order of their first use.
   std::int32_t included_below = 0;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    if (!mesh.parts[mesh.part_of_face[i]].match) continue;
+    if (!mesh.partOf(i).match) continue;
     const Face face = mesh.faces[i];
     for (const std::int32_t vertex : face.vertex) {
       if (vertex < included_below) continue;
       if (vertex == included_below) ++included_below;
-      const Eigen::Vector3d point_m =
-          rotation * mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>() +
-          view_from_station.translation_m;
-      if (point_m.z() > 0.0) box.extend(point_m);
+      const Eigen::Vector3d point_m = view_from_station * mesh.vertex(vertex);
+      if (point_m.z() > 0.0) box.extend(tangentOf(point_m));
     }
   }
   return box;
 }
 
 /// Bounding box of the real image in the view, from a grid of its pixels.
-TangentBox boxOfImage(const SearchProblem& problem, const Pose& view_from_camera) {
+Eigen::AlignedBox2d boxOfImage(const SearchProblem& problem, const Pose& view_from_camera) {
   constexpr int kSteps = 8;
-  TangentBox box;
+  Eigen::AlignedBox2d box;
   const Camera& camera = problem.camera;
   const Eigen::Matrix3d rotation = view_from_camera.matrix();
   for (int i = 0; i <= kSteps; ++i) {
@@ -64,7 +56,7 @@ TangentBox boxOfImage(const SearchProblem& problem, const Pose& view_from_camera
       Eigen::Vector3d ray;
       if (!unproject(camera, pixel, ray)) continue;
       const Eigen::Vector3d turned = rotation * problem.seenAlong(ray);
-      if (turned.z() > kLeastZ) box.extend(turned);
+      if (turned.z() > kLeastZ) box.extend(tangentOf(turned));
     }
   }
   return box;
@@ -88,16 +80,16 @@ using Sums = std::array<std::int64_t, static_cast<std::size_t>(kCount)>;
 /// columns count by the share that the block covers.
 struct Block {
   int x, y;                  ///< its first pixel
-  std::int32_t right, down;  ///< weights of the last column and row, in units of 2^-kShareBits
+  std::int32_t right, down;  ///< weights of the last column and row, in units of 2^-kFractionBits
   int size;                  ///< px; it touches one column and one row more
 
   Block(double x_px, double y_px, int size_px)
       : x(static_cast<int>(x_px)), y(static_cast<int>(y_px)), size(size_px) {
-    right = static_cast<std::int32_t>((x_px - x) * (1 << kShareBits));
-    down = static_cast<std::int32_t>((y_px - y) * (1 << kShareBits));
+    right = static_cast<std::int32_t>((x_px - x) * (1 << kFractionBits));
+    down = static_cast<std::int32_t>((y_px - y) * (1 << kFractionBits));
   }
-  std::int32_t left() const { return (1 << kShareBits) - right; }
-  std::int32_t up() const { return (1 << kShareBits) - down; }
+  std::int32_t left() const { return (1 << kFractionBits) - right; }
+  std::int32_t up() const { return (1 << kFractionBits) - down; }
 };
 
 /// Sums over a block, in units of 2^-16.
@@ -108,13 +100,14 @@ Sums<kCount> blockSums(const Channels& image, const Block& block) {
     const std::uint8_t* pixel = image.at<kCount>(block.x, block.y + row);
     std::array<std::int32_t, static_cast<std::size_t>(kCount)> inner{};
     for (int i = 1; i < block.size; ++i)
-      for (int k = 0; k < kCount; ++k) inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
+      for (int k = 0; k < kCount; ++k) nth(inner, k) += pixel[i * kCount + k];
     const std::int32_t weight = row == 0            ? block.up()
                                 : row == block.size ? block.down
-                                                    : (1 << kShareBits);
+                                                    : (1 << kFractionBits);
     for (int k = 0; k < kCount; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      const std::int64_t along = block.left() * pixel[k] + (std::int64_t{inner[at]} << kShareBits) +
+      const std::int64_t along = block.left() * pixel[k] +
+                                 (std::int64_t{inner[at]} << kFractionBits) +
                                  block.right * pixel[block.size * kCount + k];
       sums[at] += along * weight;
     }
@@ -135,8 +128,7 @@ constexpr int kMostRows = 128;
   for (int i = 0; i < rows; ++i, row += stride)
     for (int k = 0; k < kColumns; ++k) sum[k] = static_cast<std::uint16_t>(sum[k] + row[k]);
   Columns sums;
-  for (int k = 0; k < kColumns; ++k)
-    sums[static_cast<std::size_t>(k)] = static_cast<std::int16_t>(sum[k]);
+  for (int k = 0; k < kColumns; ++k) nth(sums, k) = static_cast<std::int16_t>(sum[k]);
   return sums;
 }
 
@@ -144,7 +136,7 @@ constexpr int kMostRows = 128;
 /// kColumns - n before the middle.
 constexpr std::array<std::int16_t, 2 * kColumns> kWhole = [] {
   std::array<std::int16_t, 2 * kColumns> weights{};
-  for (std::size_t k = 0; k < kColumns; ++k) weights[k] = 1 << kShareBits;
+  for (std::size_t k = 0; k < kColumns; ++k) weights[k] = 1 << kFractionBits;
   return weights;
 }();
 
@@ -172,11 +164,9 @@ constexpr std::array<std::int16_t, 2 * kColumns> kWhole = [] {
     std::copy_n(kWhole.begin() + (kColumns - to), kColumns, weights.begin());
   } else {
     for (std::size_t k = 0; k < kColumns; ++k)
-      weights[k] = kPlace[k] >= from && kPlace[k] < to ? 1 << kShareBits : 0;
+      weights[k] = kPlace[k] >= from && kPlace[k] < to ? 1 << kFractionBits : 0;
   }
-  const auto weightOf = [&](int column) -> std::int16_t& {
-    return weights[static_cast<std::size_t>(column - begin)];
-  };
+  const auto weightOf = [&](int column) -> std::int16_t& { return nth(weights, column - begin); };
   if (first == 0) weightOf(0) = static_cast<std::int16_t>(block.left());
   if (end == block.size + 1) weightOf(block.size) = static_cast<std::int16_t>(block.right);
   return weights;
@@ -196,8 +186,8 @@ std::int64_t blockSumByColumns(const Channels& image, int width, const Block& bl
       return std::int64_t{weighRow(weights, row)};
     };
     const Columns inner = columnSums(top + image.stride, image.stride, block.size - 1);
-    sum += (std::int64_t{dotProduct(weights, inner)} << kShareBits) + block.up() * alongRow(top) +
-           block.down * alongRow(bottom);
+    sum += (std::int64_t{dotProduct(weights, inner)} << kFractionBits) +
+           block.up() * alongRow(top) + block.down * alongRow(bottom);
   }
   return sum;
 }
@@ -285,8 +275,8 @@ void fillRows(const SearchProblem& problem, const Channels& image, const FacingV
       else
         sums = blockSums<kCount>(image, covered);
       for (int k = 0; k < kCount; ++k)
-        output.value[static_cast<std::size_t>(k) * channel + at] = static_cast<std::uint8_t>(
-            (sums[static_cast<std::size_t>(k)] >> (2 * kShareBits)) / (block * block));
+        output.value[static_cast<std::size_t>(k) * channel + at] =
+            static_cast<std::uint8_t>((nth(sums, k) >> (2 * kFractionBits)) / (block * block));
       const bool ignored =
           problem.ignore != nullptr &&
           problem.ignore->get(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
@@ -311,13 +301,12 @@ bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, co
   const Eigen::Vector3d middle_m = camera_from_station * problem.scene.centre();
   if (!(middle_m.z() > 0.0)) return false;
   view.view_from_camera = viewTowards(middle_m);
-  TangentBox seen = boxOfScene(problem.mesh, view.view_from_camera * camera_from_station);
-  const TangentBox image = boxOfImage(problem, view.view_from_camera);
-  seen.least = seen.least.cwiseMax(image.least);
-  seen.most = seen.most.cwiseMin(image.most);
-  if (!((seen.most - seen.least).minCoeff() > 0.0)) return false;
-  const double span = std::max((seen.most - seen.least).maxCoeff(), 2.0 * size.least_half);
-  const Eigen::Vector2d half = seen.most.cwiseMax(-seen.least).cwiseMax(size.least_half) +
+  const Eigen::AlignedBox2d seen =
+      boxOfScene(problem.mesh, PoseMatrix(view.view_from_camera * camera_from_station))
+          .intersection(boxOfImage(problem, view.view_from_camera));
+  if (!(seen.sizes().minCoeff() > 0.0)) return false;
+  const double span = std::max(seen.sizes().maxCoeff(), 2.0 * size.least_half);
+  const Eigen::Vector2d half = seen.max().cwiseMax(-seen.min()).cwiseMax(size.least_half) +
                                Eigen::Vector2d(size.slide_x, size.slide_y);
   const double real_focal_px = std::abs(problem.camera.fx);
   const double finest_px =

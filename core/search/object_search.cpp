@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 
 namespace boresight {
 namespace {
@@ -154,15 +155,15 @@ bool ObjectSearch::nextDirection() {
 
 bool ObjectSearch::nextDescent() {
   const std::span<const SearchCandidate> candidates = grid_found_.candidates();
-  const bool continues = ++next_ < static_cast<int>(candidates.size()) &&
-                         candidates[static_cast<std::size_t>(next_)].distance_px <
-                             candidates.front().distance_px + kBehind_px;
+  const bool continues =
+      ++next_ < static_cast<int>(candidates.size()) &&
+      nth(candidates, next_).distance_px < candidates.front().distance_px + kBehind_px;
   phase_ = continues ? Phase::kRender : Phase::kDone;
   return !continues;
 }
 
 void ObjectSearch::descend() {
-  SearchCandidate candidate = grid_found_.candidates()[static_cast<std::size_t>(next_)];
+  SearchCandidate candidate = nth(grid_found_.candidates(), next_);
   Pose view_from_station = view_edges_->inView(candidate.camera_from_station);
   candidate.distance_px = compass_.descend(sums_, problem_->scene.centre(), view_from_station);
   candidate.camera_from_station = view_edges_->inCamera(view_from_station);
@@ -171,23 +172,16 @@ void ObjectSearch::descend() {
 
 /// A pose that cannot be rendered is skipped.
 bool ObjectSearch::stepRender() {
-  bool complete = false;
-  Status status = Status::kOk;
-  if (!rendering_)
-    status = renderer_->begin(view_edges_->rays(), renderedPose(), *render_, {},
-                              view_edges_->view().view_from_camera);
-  else
-    status = renderer_->stepWhole(complete);
-  rendering_ = status == Status::kOk && !complete;
+  const Status status = view_edges_->render(*renderer_, renderedPose(), *render_, rendering_);
   if (rendering_) return false;
   if (descends_) {
     phase_ = Phase::kDescend;
     return status == Status::kOk && compass_.takePlaces(problem_->mesh, *render_) ? false
                                                                                   : nextDescent();
   }
-  point_count_ = 0;
+  points_.clear();
   if (status == Status::kOk) takePoints();
-  if (point_count_ == 0) return nextDirection();
+  if (points_.size() == 0) return nextDirection();
   phase_ = Phase::kScore;
   next_ = std::countr_zero(rotations_.turns());
   return false;
@@ -201,8 +195,7 @@ double ObjectSearch::depthRatio(int depth) const {
 /// A candidate, or the seed turned about the scene's middle, in the view.
 Pose ObjectSearch::renderedPose() const {
   if (descends_)
-    return view_edges_->inView(
-        grid_found_.candidates()[static_cast<std::size_t>(next_)].camera_from_station);
+    return view_edges_->inView(nth(grid_found_.candidates(), next_).camera_from_station);
   Pose view_from_station;
   view_from_station.rotation = rotationExp(rotations_.tilt_rad()) *
                                view_edges_->inView(problem_->camera_from_station_seed).rotation;
@@ -216,9 +209,8 @@ void ObjectSearch::takePoints() {
   takeEvenly(*render_, [&](const EdgePixel& pixel) {
     const double normal_x = pixel.normal_x / 127.0;
     const double normal_y = pixel.normal_y / 127.0;
-    points_[static_cast<std::size_t>(point_count_++)] = {
-        pixel.x + 0.01 * pixel.offset * normal_x - camera.cx,
-        pixel.y + 0.01 * pixel.offset * normal_y - camera.cy, normal_x, normal_y};
+    points_.add({pixel.x + 0.01 * pixel.offset * normal_x - camera.cx,
+                 pixel.y + 0.01 * pixel.offset * normal_y - camera.cy, normal_x, normal_y});
   });
 }
 
@@ -227,16 +219,15 @@ void ObjectSearch::scoreTurn(int turn) {
   const double c = cos(turn * rotations_.spacing_rad());
   const double s = sin(turn * rotations_.spacing_rad());
   std::array<SlideSums::Place, SlideSums::kMaxPlaces> places;
-  const auto used = std::span(places).first(static_cast<std::size_t>(point_count_));
+  const auto used = std::span(places).first(points_.items().size());
   for (int depth = 0; depth < depths_; ++depth) {
     const double ratio = depthRatio(depth);
     for (std::size_t i = 0; i < used.size(); ++i) {
-      const Point& point = points_[i];
+      const Point& point = points_.items()[i];
       used[i] = {static_cast<std::int16_t>(nearestInt((c * point.x_px - s * point.y_px) / ratio)),
                  static_cast<std::int16_t>(nearestInt((s * point.x_px + c * point.y_px) / ratio)),
-                 static_cast<std::uint8_t>(edgeDirectionOf(
-                     nearestInt(1024.0 * (c * point.normal_x - s * point.normal_y)),
-                     nearestInt(1024.0 * (s * point.normal_x + c * point.normal_y))))};
+                 edgeDirectionOf(nearestInt(1024.0 * (c * point.normal_x - s * point.normal_y)),
+                                 nearestInt(1024.0 * (s * point.normal_x + c * point.normal_y)))};
     }
     sums_.add(used);
     poses_ += std::int64_t{sums_.columns()} * sums_.rows();
@@ -245,7 +236,7 @@ void ObjectSearch::scoreTurn(int turn) {
 }
 
 void ObjectSearch::takePeaks(int turn, double depth_ratio) {
-  const double unit_px = SlideSums::kStep_px / point_count_;
+  const double unit_px = SlideSums::kStep_px / points_.size();
   if (!grid_found_.accepts(unit_px * sums_.least())) return;
   const Eigen::Vector3d tilt_rad = rotations_.tilt_rad();
   for (int row = 0; row < sums_.rows(); ++row) {

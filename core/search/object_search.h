@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/fixed_list.h"
 #include "core/render/edge_render.h"
 #include "core/search/compass_search.h"
 #include "core/search/rotation_grid.h"
@@ -78,8 +78,7 @@ class ObjectSearch {
   int slide_x_px_ = 0;        ///< to either side, every pixel
   int slide_y_px_ = 0;        ///< to either side, every pixel
   SlideSums sums_;
-  std::array<Point, SlideSums::kMaxPlaces> points_;
-  int point_count_ = 0;
+  FixedList<Point, SlideSums::kMaxPlaces> points_;
   CompassSearch compass_;
   CandidateList grid_found_;  ///< on the grid
   CandidateList found_;       ///< after their descent

@@ -6,17 +6,14 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
 /// Longest side of each view: holds the object with its margins.
 constexpr std::array<int, kEvidenceViews> kLongestView_px = {312, 512};
 constexpr double kAlongNormal_px = 4.0;  ///< step that gives a normal's direction in the view
-
-std::int32_t strideOf(const EdgeRender& render) {
-  return std::max(1, (render.pixel_count + ContourEvidenceMeter::kMaxPlaces - 1) /
-                         ContourEvidenceMeter::kMaxPlaces);
-}
 
 /// A pixel of the render, in the view.
 bool inView(const EdgeRender& render, const Eigen::Vector2d& pixel, const FacingView& view,
@@ -38,12 +35,10 @@ ViewSize evidenceViewSize(int view) {
 }
 
 void takePlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
-  const std::int32_t stride = strideOf(render);
+  const std::int32_t stride = render.strideFor(ContourEvidenceMeter::kMaxPlaces);
   meter.clear(stride);
   for (const EdgePixel& pixel : render.eachPixel(stride)) {
-    meter.add({pixel.x, pixel.y,
-               static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y)),
-               isBorder(pixel)});
+    meter.add({pixel.x, pixel.y, edgeDirectionOf(pixel.normal_x, pixel.normal_y), isBorder(pixel)});
   }
 }
 
@@ -74,31 +69,31 @@ bool PoseEvidenceMeter::step() {
   if (!view_edges_.step()) return false;
   meter_.begin(view_edges_.edges());
   takePlacesOfRender();
-  contours_[static_cast<std::size_t>(view_)] = meter_.measure(view_edges_.view().span_px);
+  nth(contours_, view_) = meter_.measure(view_edges_.view().span_px);
   return ++view_ == kEvidenceViews || !beginView();
 }
 
 void PoseEvidenceMeter::takePlacesOfRender() {
   const FacingView& view = view_edges_.view();
   const Eigen::Matrix3d view_from_camera = view.view_from_camera.matrix();
-  const std::int32_t stride = strideOf(*render_);
+  const std::int32_t stride = render_->strideFor(ContourEvidenceMeter::kMaxPlaces);
   const double scale = static_cast<double>(problem_->camera.width) / render_->camera.width;
   meter_.clear(stride * scale * view.pixels_per_px);
   for (const EdgePixel& pixel : render_->eachPixel(stride)) {
-    const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
-    const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
+    const Eigen::Vector2d place = pixel.onLine_px();
     Eigen::Vector2d at;
     Eigen::Vector2d ahead;
     if (!inView(*render_, place, view, view_from_camera, at) ||
-        !inView(*render_, place + kAlongNormal_px * normal, view, view_from_camera, ahead) ||
+        !inView(*render_, place + kAlongNormal_px * pixel.normal(), view, view_from_camera,
+                ahead) ||
         !(at.cwiseAbs().maxCoeff() < 1e4))
       continue;
     const Eigen::Vector2d way = 1024.0 * (ahead - at).normalized();
-    meter_.add({static_cast<std::int16_t>(std::floor(at.x() + 0.5)),
-                static_cast<std::int16_t>(std::floor(at.y() + 0.5)),
-                static_cast<std::uint8_t>(edgeDirectionOf(static_cast<std::int32_t>(way.x()),
-                                                          static_cast<std::int32_t>(way.y()))),
-                isBorder(pixel)});
+    meter_.add(
+        {static_cast<std::int16_t>(std::floor(at.x() + 0.5)),
+         static_cast<std::int16_t>(std::floor(at.y() + 0.5)),
+         edgeDirectionOf(static_cast<std::int32_t>(way.x()), static_cast<std::int32_t>(way.y())),
+         isBorder(pixel)});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/search/pose_evidence_meter.h"
 
 namespace boresight {
@@ -75,7 +76,7 @@ Status PoseSearch::create(int channels, Arena& arena) {
 bool PoseSearch::begin(const SearchProblem& problem, EdgeRenderer& renderer) {
   problem_ = problem;
   renderer_ = &renderer;
-  waiting_count_ = kept_count_ = 0;
+  kept_.clear();
   left_ = 0;
   rendering_ = resumed_ = false;
   phase_ = Phase::kSearch;
@@ -87,14 +88,13 @@ bool PoseSearch::begin(const SearchProblem& problem, EdgeRenderer& renderer) {
 bool PoseSearch::beginAtSeed(const SearchProblem& problem, EdgeRenderer& renderer) {
   problem_ = problem;
   renderer_ = &renderer;
-  waiting_[0] = {};
-  waiting_[0].camera_from_station = problem.camera_from_station_seed;
-  waiting_count_ = 1;
-  kept_count_ = left_ = 0;
+  PoseCandidate seed;
+  seed.camera_from_station = problem.camera_from_station_seed;
+  found_.clear();
+  found_.add(seed);
+  left_ = 0;
   resumed_ = false;
-  round_ = kSeedRound;
-  next_ = 0;
-  return beginNext();
+  return start(found_, kSeedRound);
 }
 
 bool PoseSearch::step() {
@@ -102,7 +102,7 @@ bool PoseSearch::step() {
     case Phase::kSearch:
       if (!search_.step()) return false;
       takeFound();
-      return !beginNext();
+      return !start(found_, 0);
     case Phase::kView:
       if (!view_edges_.step()) return false;
       meter_.begin(view_edges_.edges());
@@ -123,97 +123,88 @@ bool PoseSearch::step() {
 /// The poses of the search, for the first round.
 void PoseSearch::takeFound() {
   meter_.begin(view_edges_.edges());
-  waiting_count_ = 0;
+  found_.clear();
   for (const SearchCandidate& found : search_.candidates()) {
-    PoseCandidate& candidate = waiting_[static_cast<std::size_t>(waiting_count_++)];
-    candidate = {};
+    PoseCandidate candidate;
     candidate.found = found;
     candidate.camera_from_station = found.camera_from_station;
+    found_.add(candidate);
   }
-  found_ = waiting_;
-  found_count_ = waiting_count_;
-  kept_count_ = 0;
-  round_ = next_ = 0;
 }
 
 bool PoseSearch::resume() {
   if (!isSuspended()) return false;
   resumed_ = true;
   left_ = 0;
-  waiting_ = found_;
-  waiting_count_ = found_count_;
-  kept_count_ = 0;
-  round_ = next_ = 0;
+  return start(found_, 0);
+}
+
+/// Starts a round with these poses; false when none of them, nor a later round, has anything to do.
+bool PoseSearch::start(const PoseList& waiting, int round) {
+  beginRound(waiting, round);
   return beginNext();
+}
+
+void PoseSearch::beginRound(const PoseList& waiting, int round) {
+  waiting_ = waiting;
+  kept_.clear();
+  round_ = round;
+  next_ = 0;
 }
 
 /// Poses of the round that are refined, unless their evidence is too low.
 int PoseSearch::most() const {
-  const Round& round = kSearchRounds[static_cast<std::size_t>(round_)];
-  return std::min(waiting_count_, resumed_ ? round.most : round.at_first);
+  const Round& round = nth(kSearchRounds, round_);
+  return std::min(waiting_.size(), resumed_ ? round.most : round.at_first);
 }
 
 /// Starts the next waiting pose; false when none is left and all rounds are over.
 bool PoseSearch::beginNext() {
-  do {
-    const Round& round = kSearchRounds[static_cast<std::size_t>(round_)];
+  for (;; beginRound(kept_, round_ + 1)) {
+    const Round& round = nth(kSearchRounds, round_);
     while (next_ < most()) {
-      current_ = waiting_[static_cast<std::size_t>(next_++)];
+      current_ = waiting_[next_++];
       if (next_ > round.least && current_.rank_nats() < waiting_[0].rank_nats() - round.behind_nats)
         break;
       level_ = round.first_level;
       if (beginLevel()) return true;
     }
-    left_ += waiting_count_ - most();
-  } while (beginRound());
+    left_ += waiting_.size() - most();
+    if (round_ >= kLastRound) break;
+  }
   phase_ = Phase::kDone;
   return false;
-}
-
-bool PoseSearch::beginRound() {
-  if (round_ >= kLastRound) return false;
-  ++round_;
-  next_ = 0;
-  waiting_ = kept_;
-  waiting_count_ = kept_count_;
-  kept_count_ = 0;
-  return true;
 }
 
 /// Inserts the refined pose by its evidence. Of equal poses the one with more evidence is kept.
 bool PoseSearch::keep() {
   const bool is_last = round_ == kLastRound;
   int kept = 0;
-  for (int i = 0; i < kept_count_; ++i) {
-    const PoseCandidate& kept_pose = kept_[static_cast<std::size_t>(i)];
+  for (int i = 0; i < kept_.size(); ++i) {
+    const PoseCandidate& kept_pose = kept_[i];
     const bool same =
         !is_last && isSame(kept_pose.camera_from_station, current_.camera_from_station);
     if (same && kept_pose.rank_nats() >= current_.rank_nats()) return !beginNext();
-    if (!same) kept_[static_cast<std::size_t>(kept++)] = kept_pose;
+    if (!same) kept_[kept++] = kept_pose;
   }
+  kept_.keepFirst(kept);
   int place = kept;
-  for (; place > 0 && kept_[static_cast<std::size_t>(place - 1)].rank_nats() < current_.rank_nats();
-       --place)
-    kept_[static_cast<std::size_t>(place)] = kept_[static_cast<std::size_t>(place - 1)];
-  kept_[static_cast<std::size_t>(place)] = current_;
-  kept_count_ = kept + 1;
+  while (place > 0 && kept_[place - 1].rank_nats() < current_.rank_nats()) --place;
+  kept_.insert(place, current_);
   return !beginNext();
 }
 
 bool PoseSearch::isKept(const Pose& camera_from_station) const {
-  for (int i = 0; i < kept_count_; ++i)
-    if (isSame(kept_[static_cast<std::size_t>(i)].camera_from_station, camera_from_station))
-      return true;
-  return false;
+  const std::span<const PoseCandidate> kept = kept_.items();
+  return std::any_of(kept.begin(), kept.end(), [&](const PoseCandidate& candidate) {
+    return isSame(candidate.camera_from_station, camera_from_station);
+  });
 }
 
 /// Whether two poses show the corners of the scene's box at about the same places.
 bool PoseSearch::isSame(const Pose& first_pose, const Pose& second_pose) const {
-  const BoundingBox& box = problem_.scene;
   for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d corner((i & 1) != 0 ? box.maximum_m.x() : box.minimum_m.x(),
-                                 (i & 2) != 0 ? box.maximum_m.y() : box.minimum_m.y(),
-                                 (i & 4) != 0 ? box.maximum_m.z() : box.minimum_m.z());
+    const Eigen::Vector3d corner = problem_.scene.corner(i);
     Eigen::Vector2d first;
     Eigen::Vector2d second;
     if (!project(view_edges_.view().camera, view_edges_.inView(first_pose) * corner, first) ||
@@ -237,7 +228,7 @@ bool PoseSearch::beginLevel() {
     return true;
   }
   ViewSize size;
-  size.span_px = kLevels[static_cast<std::size_t>(level_)].span_px;
+  size.span_px = nth(kLevels, level_).span_px;
   size.margin_px = kViewMargin * size.span_px;
   size.most_px = kLongestView_px;
   phase_ = Phase::kView;
@@ -245,14 +236,7 @@ bool PoseSearch::beginLevel() {
 }
 
 bool PoseSearch::stepRender() {
-  bool complete = false;
-  Status status = Status::kOk;
-  if (!rendering_)
-    status = renderer_->begin(view_edges_.rays(), view_from_station_, render_, {},
-                              view_edges_.view().view_from_camera);
-  else
-    status = renderer_->stepWhole(complete);
-  rendering_ = status == Status::kOk && !complete;
+  const Status status = view_edges_.render(*renderer_, view_from_station_, render_, rendering_);
   if (rendering_) return false;
   if (status != Status::kOk) return !beginNext();
   refinement_.takePlaces(problem_.mesh, render_);
@@ -276,14 +260,14 @@ PosePrior PoseSearch::prior() const {
 }
 
 bool PoseSearch::refine() {
-  const Level& level = kLevels[static_cast<std::size_t>(level_)];
-  const double radius_px = level.radius_px[static_cast<std::size_t>(pass_)];
+  const Level& level = nth(kLevels, level_);
+  const double radius_px = nth(level.radius_px, pass_);
   const bool moved =
       refinement_.refine(view_edges_.edges(), prior(), radius_px, view_from_station_);
   current_.camera_from_station = view_edges_.inCamera(view_from_station_);
   if (moved || level_ <= 1) current_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
   if (round_ < kLastRound && isKept(current_.camera_from_station)) return !beginNext();
-  const bool measures = level_ == kSearchRounds[static_cast<std::size_t>(round_)].last_level;
+  const bool measures = level_ == nth(kSearchRounds, round_).last_level;
   if (moved && ++pass_ < level.passes) {
     // The last pass renders again where its render is measured.
     if (measures && pass_ + 1 == level.passes) phase_ = Phase::kRender;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
 #include "core/accept/contour_evidence.h"
 #include "core/base/arena.h"
+#include "core/base/fixed_list.h"
 #include "core/refine/outline_refinement.h"
 #include "core/render/edge_render.h"
 #include "core/search/object_search.h"
@@ -52,18 +52,19 @@ class PoseSearch {
 
   /// The candidates by descending evidence; empty until complete.
   std::span<const PoseCandidate> candidates() const {
-    if (phase_ != Phase::kDone) return {};
-    return std::span(kept_).first(static_cast<std::size_t>(kept_count_));
+    return phase_ == Phase::kDone ? kept_.items() : std::span<const PoseCandidate>();
   }
   /// The search on the grid.
   const ObjectSearch& search() const { return search_; }
 
  private:
   enum class Phase : std::uint8_t { kSearch = 0, kView, kRender, kRefine, kDone };
+  using PoseList = FixedList<PoseCandidate, CandidateList::kCapacity>;
 
   void takeFound();
   bool beginNext();
-  bool beginRound();
+  void beginRound(const PoseList& waiting, int round);
+  bool start(const PoseList& waiting, int round);
   int most() const;
   bool keep();
   bool beginLevel();
@@ -82,12 +83,9 @@ class PoseSearch {
   OutlineRefinement refinement_;
   ContourEvidenceMeter meter_;
   /// Poses of the previous round and of the current round, by descending evidence.
-  std::array<PoseCandidate, CandidateList::kCapacity> waiting_, kept_;
-  int waiting_count_ = 0;
-  int kept_count_ = 0;
+  PoseList waiting_, kept_;
   /// Poses that the search found, for resume().
-  std::array<PoseCandidate, CandidateList::kCapacity> found_;
-  int found_count_ = 0;
+  PoseList found_;
   int left_ = 0;  ///< to resume()
 
   Phase phase_ = Phase::kDone;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/nth.h"
 #include "core/geometry/pose.h"
 
 namespace boresight {
@@ -64,8 +65,7 @@ Eigen::Vector3d RotationGrid::tilt_rad() const {
 
 bool RotationGrid::next() {
   Turns turned;
-  for (int k = 0; k < count_; ++k)
-    turned[static_cast<std::size_t>(k)] = rotationExp({0.0, 0.0, k * spacing_rad()});
+  for (int k = 0; k < count_; ++k) nth(turned, k) = rotationExp({0.0, 0.0, k * spacing_rad()});
   while (ring_ <= count_ / 2) {
     if (++place_ >= placesOn(ring_)) {
       place_ = -1;
@@ -87,8 +87,7 @@ std::uint64_t RotationGrid::turnsWithinReach(const Turns& turned) const {
   const Eigen::Quaterniond tilted = rotationExp(this->tilt_rad());
   std::uint64_t turns = 0;
   for (int k = 0; k < count_; ++k) {
-    const Eigen::Vector3d rotation_rad =
-        camera_from_view * rotationLog(turned[static_cast<std::size_t>(k)] * tilted);
+    const Eigen::Vector3d rotation_rad = camera_from_view * rotationLog(nth(turned, k) * tilted);
     if (isNearBox(rotation_rad, range_.box_rad, slack_rad)) turns |= std::uint64_t{1} << k;
   }
   return turns;

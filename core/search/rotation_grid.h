@@ -19,7 +19,6 @@ namespace boresight {
 /// The whole sphere has 188 directions.
 class RotationGrid {
  public:
-  static constexpr double kSpacing_rad = 15.0 * kDegree_rad;   ///< of large boxes
   static constexpr double kSmallBox_rad = 20.0 * kDegree_rad;  ///< largest side of small boxes
 
   /// Range of a grid.

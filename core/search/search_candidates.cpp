@@ -23,22 +23,15 @@ bool CandidateList::same(const SearchCandidate& first, const SearchCandidate& se
 
 void CandidateList::insert(const SearchCandidate& candidate) {
   int kept = 0;
-  for (int i = 0; i < count_; ++i) {
-    const SearchCandidate& kept_candidate = candidates_[static_cast<std::size_t>(i)];
-    const bool near = same(candidate, kept_candidate);
-    if (near && kept_candidate.distance_px <= candidate.distance_px) return;
-    if (!near) candidates_[static_cast<std::size_t>(kept++)] = kept_candidate;
+  for (int i = 0; i < candidates_.size(); ++i) {
+    const bool near = same(candidate, candidates_[i]);
+    if (near && candidates_[i].distance_px <= candidate.distance_px) return;
+    if (!near) candidates_[kept++] = candidates_[i];
   }
-  count_ = kept;
-  int place = count_;
-  while (place > 0 &&
-         candidates_[static_cast<std::size_t>(place - 1)].distance_px > candidate.distance_px)
-    --place;
-  if (place >= kCapacity) return;
-  count_ = std::min(count_ + 1, kCapacity);
-  for (int i = count_ - 1; i > place; --i)
-    candidates_[static_cast<std::size_t>(i)] = candidates_[static_cast<std::size_t>(i - 1)];
-  candidates_[static_cast<std::size_t>(place)] = candidate;
+  candidates_.keepFirst(kept);
+  int place = kept;
+  while (place > 0 && candidates_[place - 1].distance_px > candidate.distance_px) --place;
+  candidates_.insert(place, candidate);
 }
 
 }  // namespace boresight

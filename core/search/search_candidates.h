@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 
+#include "core/base/fixed_list.h"
 #include "core/geometry/pose.h"
 
 namespace boresight {
@@ -34,14 +33,12 @@ class CandidateList {
 
   /// Whether a candidate of that distance would be kept if it is apart from the others.
   bool accepts(double distance_px) const {
-    return count_ < kCapacity || distance_px < candidates_[kCapacity - 1].distance_px;
+    return candidates_.size() < kCapacity || distance_px < candidates_[kCapacity - 1].distance_px;
   }
   /// Keeps a candidate unless a better one is near; worse ones near it are dropped.
   void insert(const SearchCandidate& candidate);
   /// The candidates, the best first.
-  std::span<const SearchCandidate> candidates() const {
-    return std::span(candidates_).first(static_cast<std::size_t>(count_));
-  }
+  std::span<const SearchCandidate> candidates() const { return candidates_.items(); }
 
  private:
   bool same(const SearchCandidate& first, const SearchCandidate& second) const;
@@ -49,8 +46,7 @@ class CandidateList {
   double radius_px_ = 1.0;
   double apart_px_ = 1.0;
   Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
-  std::array<SearchCandidate, kCapacity> candidates_;
-  int count_ = 0;
+  FixedList<SearchCandidate, kCapacity> candidates_;
 };
 
 }  // namespace boresight

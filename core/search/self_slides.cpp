@@ -36,7 +36,7 @@ void SelfSlides::findSlides() {
   takeEvenly(*render_, [&](const EdgePixel& pixel) {
     places[count++] = {static_cast<std::int16_t>(pixel.x - edges_->width / 2),
                        static_cast<std::int16_t>(pixel.y - edges_->height / 2),
-                       static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y))};
+                       edgeDirectionOf(pixel.normal_x, pixel.normal_y)};
   });
   sums_.add(std::span(places).first(count));
   const double most = kAlike_px / SlideSums::kStep_px * static_cast<double>(count);

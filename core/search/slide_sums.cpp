@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -35,13 +37,13 @@ void SlideSums::begin(int width, int height, int slide_x_px, int slide_y_px) {
 }
 
 void SlideSums::takeMap(const DirectedEdges& edges, int direction) {
-  const std::span<std::uint8_t> map = maps_[static_cast<std::size_t>(direction)];
+  const std::span<std::uint8_t> map = nth(maps_, direction);
   // Computed in the map's own memory first; then the border is spread, last row first.
   distanceToDirection(edges, direction, map);
   constexpr int kPerStep = static_cast<int>(kStep_px / kDistanceUnit_px + 0.5);
   std::uint32_t sum = 0;
   for (int i = 0; i < width_ * height_; ++i) {
-    std::uint8_t& value = map[static_cast<std::size_t>(i)];
+    std::uint8_t& value = nth(map, i);
     value = static_cast<std::uint8_t>((value + kPerStep / 2) / kPerStep);
     sum += value;
   }
@@ -72,8 +74,7 @@ std::uint8_t SlideSums::at(int direction, double x_px, double y_px) const {
     const double place = kBorder_px + size / 2 + px + 0.5;
     return static_cast<int>(std::clamp(place, 0.0, size + 2.0 * kBorder_px - 1.0));
   };
-  return maps_[static_cast<std::size_t>(direction)]
-              [static_cast<std::size_t>(placeOf(y_px, height_) * stride_ + placeOf(x_px, width_))];
+  return nth(nth(maps_, direction), placeOf(y_px, height_) * stride_ + placeOf(x_px, width_));
 }
 
 void SlideSums::add(std::span<const Place> places) {

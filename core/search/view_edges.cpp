@@ -43,6 +43,16 @@ bool ViewEdges::step() {
   return detector_.step(image_, kDetectedRows, edges_);
 }
 
+Status ViewEdges::render(EdgeRenderer& renderer, const Pose& view_from_station, EdgeRender& output,
+                         bool& rendering) const {
+  bool complete = false;
+  const Status status =
+      rendering ? renderer.stepWhole(complete)
+                : renderer.begin(rays_, view_from_station, output, {}, view_.view_from_camera);
+  rendering = status == Status::kOk && !complete;
+  return status;
+}
+
 Pose ViewEdges::inCamera(const Pose& view_from_station) const {
   Pose camera_from_station = view_.view_from_camera.inverse() * view_from_station;
   camera_from_station.rotation.normalize();

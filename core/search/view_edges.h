@@ -3,6 +3,7 @@
 
 #include "core/base/arena.h"
 #include "core/edges/directed_edges.h"
+#include "core/render/edge_render.h"
 #include "core/render/ray_grid.h"
 #include "core/search/facing_view.h"
 
@@ -27,6 +28,10 @@ class ViewEdges {
   const RayGrid& rays() const { return rays_; }
   /// The edges of its image.
   const DirectedEdges& edges() const { return edges_; }
+  /// One slice of a render in the view. `rendering` is false before the first slice, and after the
+  /// render is complete or has failed.
+  Status render(EdgeRenderer& renderer, const Pose& view_from_station, EdgeRender& output,
+                bool& rendering) const;
   /// Converts a station pose from the real camera to the view.
   Pose inView(const Pose& camera_from_station) const {
     return view_.view_from_camera * camera_from_station;

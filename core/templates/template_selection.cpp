@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/nth.h"
+
 namespace boresight {
 namespace {
 
@@ -56,7 +58,7 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 
 TemplateSet createTemplateSet(const TemplateOptions& options, Arena& arena) {
   TemplateSet set;
-  set.templates = arena.allocate<Template>(static_cast<std::size_t>(options.count));
+  set.templates = arena.allocate<Template>(options.count);
   return set;
 }
 
@@ -65,9 +67,9 @@ Status TemplateSelector::create(int max_width, int max_height, const TemplateOpt
   options_ = options;
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   const int blocks = std::min(kMaxBlocks, ceilDivide(std::max(max_width, max_height), 4)) + 1;
-  sums_ = arena.allocate<Scatter>(static_cast<std::size_t>(blocks * kHeldRows));
-  cells_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(kMaxCells * kMaxCells));
-  best_ = arena.allocate<Best>(static_cast<std::size_t>(options.count));
+  sums_ = arena.allocate<Scatter>(blocks * kHeldRows);
+  cells_ = arena.allocate<std::uint16_t>(kMaxCells * kMaxCells);
+  best_ = arena.allocate<Best>(options.count);
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
@@ -82,12 +84,7 @@ void TemplateSelector::beginSums(const EdgeRender& render, int side_px) {
 }
 
 /// Row `row` of the summed-area table: over the rows of blocks before it.
-std::span<TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) {
-  const auto columns = static_cast<std::size_t>(blocks_x_ + 1);
-  return sums_.subspan(static_cast<std::size_t>(row % kHeldRows) * columns, columns);
-}
-
-std::span<const TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) const {
+std::span<TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) const {
   const auto columns = static_cast<std::size_t>(blocks_x_ + 1);
   return sums_.subspan(static_cast<std::size_t>(row % kHeldRows) * columns, columns);
 }
@@ -99,10 +96,10 @@ void TemplateSelector::sumRow(const EdgeRender& render) {
   std::ranges::fill(sums, Scatter{});
   const int first_y = (summed_rows_ - 1) * block_px_;
   const int end_y = std::min(first_y + block_px_, render.edges.height);
-  const std::int32_t end = render.row_begin[static_cast<std::size_t>(end_y)];
-  for (std::int32_t i = render.row_begin[static_cast<std::size_t>(first_y)]; i < end; ++i) {
-    const EdgePixel pixel = render.pixels[static_cast<std::size_t>(i)].unpacked(first_y);
-    Scatter& block = sums[static_cast<std::size_t>(pixel.x / block_px_ + 1)];
+  const std::int32_t end = nth(render.row_begin, end_y);
+  for (std::int32_t i = nth(render.row_begin, first_y); i < end; ++i) {
+    const EdgePixel pixel = nth(render.pixels, i).unpacked(first_y);
+    Scatter& block = nth(sums, pixel.x / block_px_ + 1);
     const int nx = pixel.normal_x;
     const int ny = pixel.normal_y;
     block.xx += static_cast<std::uint32_t>(nx * nx);
@@ -123,11 +120,6 @@ void TemplateSelector::sumRow(const EdgeRender& render) {
   ++summed_rows_;
 }
 
-/// Rows of the table up to `row`.
-void TemplateSelector::sumRowsTo(const EdgeRender& render, int row) {
-  while (summed_rows_ <= row) sumRow(render);
-}
-
 /// Blocks from the middle one of a square to its first and last one.
 int TemplateSelector::reachOf(int side_px) const {
   return std::clamp(side_px / block_px_ / 2, 1, kMaxReach);
@@ -143,10 +135,10 @@ TemplateSelector::Scatter TemplateSelector::scatterAround(int x, int y, int side
   const int by1 = std::min(blocks_y_, y / block_px_ + reach + 1);
   const std::span<const Scatter> above = sumsOf(by0);
   const std::span<const Scatter> below = sumsOf(by1);
-  const Scatter& a = above[static_cast<std::size_t>(bx0)];
-  const Scatter& b = above[static_cast<std::size_t>(bx1)];
-  const Scatter& c = below[static_cast<std::size_t>(bx0)];
-  const Scatter& d = below[static_cast<std::size_t>(bx1)];
+  const Scatter& a = nth(above, bx0);
+  const Scatter& b = nth(above, bx1);
+  const Scatter& c = nth(below, bx0);
+  const Scatter& d = nth(below, bx1);
   return {d.xx - b.xx - c.xx + a.xx, d.xy - b.xy - c.xy + a.xy, d.yy - b.yy - c.yy + a.yy,
           d.count - b.count - c.count + a.count};
 }
@@ -174,18 +166,27 @@ bool TemplateSelector::tooMuchIgnored(const EdgePixel& pixel, int side_px, const
   return ignored > kMaxIgnoredShare * side_px * scale * side_px * scale;
 }
 
-int TemplateSelector::countCells(const EdgeRender& render, int side_px, int cell_px) {
+/// Clears all cells, then calls use(index, pixel, its cell) for the edge pixels that templates may
+/// be centred on.
+template <class Use>
+void TemplateSelector::forEachPlace(const EdgeRender& render, int side_px, int cell_px, Use&& use) {
   const int columns = ceilDivide(render.edges.width, cell_px);
   const int rows = ceilDivide(render.edges.height, cell_px);
   std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, kUnoccupied);
-  int occupied = 0;
+  std::int32_t index = -1;
   for (const EdgePixel& pixel : render.eachPixel()) {
+    ++index;
     if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
-    std::uint16_t& cell =
-        cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
+    use(index, pixel, nth(cells_, (pixel.y / cell_px) * columns + pixel.x / cell_px));
+  }
+}
+
+int TemplateSelector::countCells(const EdgeRender& render, int side_px, int cell_px) {
+  int occupied = 0;
+  forEachPlace(render, side_px, cell_px, [&](std::int32_t, const EdgePixel&, std::uint16_t& cell) {
     if (cell == kUnoccupied) ++occupied;
     cell = 0;
-  }
+  });
   return occupied;
 }
 
@@ -208,26 +209,19 @@ int TemplateSelector::cellSize(const EdgeRender& render, int side_px) {
 /// templates. The table's rows around each pixel are summed on the way down.
 void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cell_px,
                                   const BitImage* ignore, int level) {
-  const int columns = ceilDivide(render.edges.width, cell_px);
-  const int rows = ceilDivide(render.edges.height, cell_px);
-  std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, kUnoccupied);
   std::uint16_t occupied = 0;
-  std::int32_t index = -1;
-  for (const EdgePixel& pixel : render.eachPixel()) {
-    ++index;
-    if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
-    std::uint16_t& cell =
-        cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
+  const auto consider = [&](std::int32_t index, const EdgePixel& pixel, std::uint16_t& cell) {
     if (cell == kUnoccupied) {
       cell = occupied++;
       best_[cell] = Best{};
     }
-    sumRowsTo(render, std::min(blocks_y_, pixel.y / block_px_ + reachOf(side_px) + 1));
+    const int last_row = std::min(blocks_y_, pixel.y / block_px_ + reachOf(side_px) + 1);
+    while (summed_rows_ <= last_row) sumRow(render);
     const float distinctness = distinctnessOf(pixel, side_px);
-    if (distinctness <= best_[cell].distinctness || tooMuchIgnored(pixel, side_px, ignore, level))
-      continue;
-    best_[cell] = {distinctness, index};
-  }
+    if (distinctness > best_[cell].distinctness && !tooMuchIgnored(pixel, side_px, ignore, level))
+      best_[cell] = {distinctness, index};
+  };
+  forEachPlace(render, side_px, cell_px, consider);
 }
 
 Status TemplateSelector::select(const EdgeRender& render, int side_px, const BitImage* ignore,
@@ -240,11 +234,11 @@ Status TemplateSelector::select(const EdgeRender& render, int side_px, const Bit
   const int rows = ceilDivide(render.edges.height, cell_px);
   chooseBest(render, side_px, cell_px, ignore, level);
   for (int cell = 0; cell < columns * rows && output.count < options_.count; ++cell) {
-    const std::uint16_t place = cells_[static_cast<std::size_t>(cell)];
+    const std::uint16_t place = nth(cells_, cell);
     if (place == kUnoccupied || best_[place].pixel < 0) continue;
     const Best& best = best_[place];
     const EdgePixel pixel = render.pixel(best.pixel);
-    Template& chosen = output.templates[static_cast<std::size_t>(output.count)];
+    Template& chosen = nth(output.templates, output.count);
     chosen.center_x = pixel.x;
     chosen.center_y = pixel.y;
     chosen.depth_m = pixel.depth_m;

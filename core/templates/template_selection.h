@@ -101,13 +101,13 @@ class TemplateSelector {
 
   void beginSums(const EdgeRender& render, int side_px);
   void sumRow(const EdgeRender& render);
-  void sumRowsTo(const EdgeRender& render, int row);
-  std::span<Scatter> sumsOf(int row);
-  std::span<const Scatter> sumsOf(int row) const;
+  std::span<Scatter> sumsOf(int row) const;
   int reachOf(int side_px) const;
   Scatter scatterAround(int x, int y, int side_px) const;
   float distinctnessOf(const EdgePixel& pixel, int side_px) const;
   bool tooMuchIgnored(const EdgePixel& pixel, int side_px, const BitImage* ignore, int level) const;
+  template <class Use>
+  void forEachPlace(const EdgeRender& render, int side_px, int cell_px, Use&& use);
   int countCells(const EdgeRender& render, int side_px, int cell_px);
   int cellSize(const EdgeRender& render, int side_px);
   void chooseBest(const EdgeRender& render, int side_px, int cell_px, const BitImage* ignore,

@@ -17,11 +17,6 @@ Pose inCamera(const Pose& camera_from_rig, const Pose& rig_from_station) {
   return camera_from_rig == Pose() ? rig_from_station : camera_from_rig * rig_from_station;
 }
 
-Matrix6d movedBy(const Pose& a_from_b, const Matrix6d& covariance_in_b) {
-  const Matrix6d adjoint = adjointOf(a_from_b);
-  return adjoint * covariance_in_b * adjoint.transpose();
-}
-
 /// The first view's box in another camera's axes, in a box; the pivot is a point of the first view.
 SeedUncertainty turnedInto(const Pose& camera_from_first, const SeedUncertainty& in_first) {
   const Eigen::Matrix3d sizes = camera_from_first.matrix().cwiseAbs();
@@ -30,6 +25,29 @@ SeedUncertainty turnedInto(const Pose& camera_from_first, const SeedUncertainty&
   turned.translation_m = sizes * in_first.translation_m;
   turned.pivot_in_camera_m = camera_from_first * in_first.pivot_in_camera_m;
   return turned;
+}
+
+Pose cameraFromFirst(const ViewsProblem& problem, std::size_t view) {
+  return problem.views[view].camera_from_rig * problem.views[0].camera_from_rig.inverse();
+}
+
+/// The problem of one view alone.
+LocalizationProblem problemOf(const ViewsProblem& problem, std::size_t index) {
+  const View& view = problem.views[index];
+  LocalizationProblem own;
+  own.image = view.image;
+  own.ignore = view.ignore;
+  own.camera = view.camera;
+  own.mesh = view.mesh;
+  own.camera_from_station_seed = inCamera(view.camera_from_rig, problem.rig_from_station_seed);
+  own.uncertainty = problem.uncertainty;
+  own.end_effector_in_camera_m = problem.end_effector_in_camera_m;
+  if (index > 0) {
+    const Pose camera_from_first = cameraFromFirst(problem, index);
+    own.uncertainty = turnedInto(camera_from_first, problem.uncertainty);
+    own.end_effector_in_camera_m = camera_from_first * problem.end_effector_in_camera_m;
+  }
+  return own;
 }
 
 }  // namespace
@@ -68,39 +86,14 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
   Arena counter;
   layOut(problem, options, counter, nullptr);
   bytes = counter.highWater();
-  for (const View& view : problem.views) {
-    LocalizationProblem view_problem;
-    view_problem.image = view.image;
-    view_problem.ignore = view.ignore;
-    view_problem.camera = view.camera;
-    view_problem.mesh = view.mesh;
+  for (std::size_t v = 0; v < problem.views.size(); ++v) {
     std::size_t own = 0;
     const Status sized =
-        boresight::requiredBytes(sizeOf(view_problem), options, workers, own, kernels);
+        boresight::requiredBytes(sizeOf(problemOf(problem, v)), options, workers, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
   return Status::kOk;
-}
-
-LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
-  const View& view = problem_.views[index];
-  LocalizationProblem view_problem;
-  view_problem.image = view.image;
-  view_problem.ignore = view.ignore;
-  view_problem.camera = view.camera;
-  view_problem.mesh = view.mesh;
-  view_problem.camera_from_station_seed =
-      inCamera(view.camera_from_rig, problem_.rig_from_station_seed);
-  view_problem.uncertainty = problem_.uncertainty;
-  view_problem.end_effector_in_camera_m = problem_.end_effector_in_camera_m;
-  if (index > 0) {
-    const Pose camera_from_first =
-        view.camera_from_rig * problem_.views[0].camera_from_rig.inverse();
-    view_problem.uncertainty = turnedInto(camera_from_first, problem_.uncertainty);
-    view_problem.end_effector_in_camera_m = camera_from_first * problem_.end_effector_in_camera_m;
-  }
-  return view_problem;
 }
 
 ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptions& options,
@@ -114,12 +107,11 @@ ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptio
   Arena arena(memory);
   layOut(problem_, options_, arena, this);
   for (std::size_t v = 0; v < views_.size() && status_ == Status::kOk; ++v) {
-    const LocalizationProblem own = problemOf(v);
+    const LocalizationProblem own = problemOf(problem_, v);
     std::size_t bytes = 0;
     status_ = boresight::requiredBytes(sizeOf(own), options_, workers, bytes, kernels);
     if (status_ != Status::kOk) return;
-    views_[v].camera_from_first =
-        problem_.views[v].camera_from_rig * problem_.views[0].camera_from_rig.inverse();
+    views_[v].camera_from_first = cameraFromFirst(problem_, v);
     status_ =
         views_[v].pass.create(own, options_, arena.allocate<std::byte>(bytes), workers, kernels);
     views_[v].pass.solveOutside();
@@ -162,8 +154,7 @@ void ViewsLocalizer::startPlan() {
 }
 
 StepReport ViewsLocalizer::step() {
-  StepReport report = StepReport::of(Stage::kFinished, false);
-  report.finished = true;
+  StepReport report = StepReport::end(false);
   if (finished_) return report;
   if (status_ != Status::kOk) return finishFault(0);
   for (std::size_t v = 0; v < views_.size(); ++v)
@@ -281,9 +272,7 @@ StepReport ViewsLocalizer::finishFault(std::size_t index) {
     pass.finish(LocalizationStatus::kFault, Pose(), Matrix6d::Zero());
   }
   finished_ = true;
-  StepReport report = StepReport::of(Stage::kFinished, true);
-  report.finished = true;
-  return report;
+  return StepReport::end(true);
 }
 
 /// Acts on the attempt's ruling, or on the support of all views.
@@ -337,7 +326,7 @@ StepReport ViewsLocalizer::takePose(const StepReport& report) {
   probability_ = measured.probability;
   const PoseComparison::Next next = comparison_.takePose(
       attempt_, leading().camera_from_station_before, measured, weak_, first().context());
-  noteHypotheses();
+  comparison_.show(first().context(), first().workspace());
   if (next != PoseComparison::Next::kConclude || !options_.support.gate)
     return follow(next, status, report);
   status = judgeGap(first().workspace(), options_);
@@ -363,15 +352,6 @@ StepReport ViewsLocalizer::compare(PassKind kind, const StepReport& report) {
   comparison_kind_ = kind;
   startPlan();
   return report;
-}
-
-/// Shows the hypotheses so far, in the first view.
-void ViewsLocalizer::noteHypotheses() {
-  Workspace& workspace = first().workspace();
-  workspace.hypotheses = comparison_.hypotheses();
-  workspace.best_hypothesis = comparison_.bestIndex();
-  workspace.competitor = comparison_.competitorIndex(first().context());
-  workspace.gap = comparison_.gap(first().context());
 }
 
 StepReport ViewsLocalizer::follow(PoseComparison::Next next, LocalizationStatus status,
@@ -444,7 +424,7 @@ Status ViewsLocalizer::advance(bool& settled) {
     if (!views_[v].refines) continue;
     const Pose& camera_from_first = views_[v].camera_from_first;
     Pass& pass = views_[v].pass;
-    pass.record().refinement.covariance = movedBy(camera_from_first, refined.covariance);
+    pass.record().refinement.covariance = covarianceIn(camera_from_first, refined.covariance);
     const bool still = pass.refinement().moveTo(camera_from_first * refined.camera_from_station);
     settled = settled && still;
   }
@@ -544,7 +524,8 @@ void ViewsLocalizer::finishResult() {
     const Pose rig_from_camera = camera_from_rig.inverse();
     result_.rig_from_station =
         same ? leader.camera_from_station : rig_from_camera * leader.camera_from_station;
-    result_.covariance = same ? leader.covariance : movedBy(rig_from_camera, leader.covariance);
+    result_.covariance =
+        same ? leader.covariance : covarianceIn(rig_from_camera, leader.covariance);
   }
   // The core judges in the first view's camera.
   for (int i = 0; i < result_.competing_poses.size(); ++i) {

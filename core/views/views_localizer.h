@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/nth.h"
 #include "core/localizer/attempt.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/pose_comparison.h"
@@ -40,13 +41,8 @@ namespace boresight {
 /// view (jointCompetingPoses). Matches from outside are not supported.
 class ViewsLocalizer {
  public:
-  /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten
-  /// kB per view.
-  static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
-                              std::size_t& bytes) {
-    return requiredBytes(problem, options, 1, Kernels::kPortable, bytes);
-  }
-  /// The same for a number of workers, with these kernels.
+  /// Bytes of arena for a number of workers, in a block aligned to Arena::kAlignment: the sum of
+  /// each view's, and some ten kB per view.
   static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
                               int workers, Kernels kernels, std::size_t& bytes);
 
@@ -67,10 +63,8 @@ class ViewsLocalizer {
 
   /// State of the run.
   const ViewsResult& result() const { return result_; }
-  /// Number of views of the problem.
-  int viewCount() const { return static_cast<int>(views_.size()); }
   /// The pass of a view, for inspection; there is none when status() is not kOk.
-  const Pass& view(int index) const { return views_[static_cast<std::size_t>(index)].pass; }
+  const Pass& view(int index) const { return nth(views_, index).pass; }
   /// A view's record of the iteration and rolled hypothesis that the first view's workspace shows.
   /// nullptr before the first iteration, and for a view that does not take part in it.
   const Iteration* iterationOf(int index) const;
@@ -101,10 +95,9 @@ class ViewsLocalizer {
   static Status validate(const ViewsProblem& problem, const LocalizerOptions& options);
   static void layOut(const ViewsProblem& problem, const LocalizerOptions& options, Arena& arena,
                      ViewsLocalizer* to);
-  LocalizationProblem problemOf(std::size_t view) const;
   Pass& first() { return views_[0].pass; }
   const Iteration& leading() const { return *view(0).workspace().iteration; }
-  Shares& shares() { return shares_[static_cast<std::size_t>(plan_.record)]; }
+  Shares& shares() { return nth(shares_, plan_.record); }
 
   bool takesPart(std::size_t view) const;
   bool hasPass(std::size_t view) const;
@@ -117,7 +110,6 @@ class ViewsLocalizer {
   StepReport retry(LocalizationStatus status, const StepReport& report);
   StepReport takePose(const StepReport& report);
   StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
-  void noteHypotheses();
   WeakDirections weakDirectionsOfAll() const;
   StepReport compare(PassKind kind, const StepReport& report);
   StepReport decide(const Ruling& ruling);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nth.h"
 #include "core/views/views_localizer.h"
 
 namespace boresight {
@@ -54,7 +55,7 @@ std::int32_t ViewsLocalizer::seeing(std::size_t index) const {
   const Iteration& iteration = *view(static_cast<int>(index)).workspace().iteration;
   std::int32_t count = 0;
   for (std::int32_t i = 0; i < iteration.correspondence_count; ++i) {
-    const auto of = static_cast<std::size_t>(iteration.template_of[static_cast<std::size_t>(i)]);
+    const auto of = static_cast<std::size_t>(nth(iteration.template_of, i));
     count += meetsEdges(iteration.matches.matches[of]) ? 1 : 0;
   }
   return count;
@@ -88,8 +89,8 @@ void ViewsLocalizer::collect(std::size_t index, bool all) {
     const auto own = static_cast<std::size_t>(i);
     const auto of = static_cast<std::size_t>(iteration.template_of[own]);
     if (!all && !meetsEdges(iteration.matches.matches[of])) continue;
-    correspondences_[static_cast<std::size_t>(end)] = iteration.correspondences[own];
-    own_index_[static_cast<std::size_t>(end)] = i;
+    nth(correspondences_, end) = iteration.correspondences[own];
+    nth(own_index_, end) = i;
     ++end;
     ++shares()[index].correspondences;
   }
@@ -100,7 +101,7 @@ void ViewsLocalizer::noteInliers() {
   for (std::size_t v = 0; v < views_.size(); ++v) {
     shares()[v].inliers = 0;
     for (std::int32_t i = begin; i < pnp_views_[v].end; ++i)
-      shares()[v].inliers += pnp_.inlier[static_cast<std::size_t>(i)];
+      shares()[v].inliers += nth(pnp_.inlier, i);
     begin = pnp_views_[v].end;
   }
 }
@@ -141,16 +142,15 @@ StepReport ViewsLocalizer::supplyPose(Status status) {
     Pass& pass = views_[v].pass;
     if (pass.needs() != PassNeed::kPose) continue;
     fillSolution(v, status);
-    const Matrix6d adjoint = adjointOf(views_[v].camera_from_first);
     joint.camera_from_station =
         poseOfView(std::span(pnp_views_).first(views_.size()), v, pnp_.camera_from_station);
     joint.covariance =
-        v == 0 ? pnp_.covariance : Matrix6d(adjoint * pnp_.covariance * adjoint.transpose());
+        v == 0 ? pnp_.covariance : covarianceIn(views_[v].camera_from_first, pnp_.covariance);
     pass.supplyPose(joint);
   }
   const Ruling ruling =
       attempt_.take(first().outcome(), agreement, first().context(), first().memory().records);
-  latest_ = shares_[static_cast<std::size_t>(ruling.record)];
+  latest_ = nth(shares_, ruling.record);
   chooseRefining();
   return decide(ruling);
 }

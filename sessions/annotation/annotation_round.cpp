@@ -13,8 +13,7 @@ template <class Pair, class Compare>
 void compareAll(const std::vector<Pair>& first, const std::vector<Pair>& second, Compare&& compare,
                 std::vector<AnnotationDifference>& differences) {
   for (const Pair& item : first) {
-    const auto other = std::find_if(second.begin(), second.end(),
-                                    [&item](const Pair& pair) { return pair.id == item.id; });
+    const auto other = std::ranges::find(second, item.id, &Pair::id);
     if (other == second.end() || !item.complete() || !other->complete()) continue;
     differences.push_back({item.id, compare(item, *other)});
   }
@@ -75,15 +74,12 @@ bool isBlind(const AnnotationRounds& rounds, const Annotations& annotations) {
 
 AnnotationRounds keepingAnnotations(AnnotationRounds rounds, const Annotations& annotations,
                                     const std::string& time) {
-  const bool on_image =
-      std::any_of(annotations.points.begin(), annotations.points.end(),
-                  [](const PointPair& point) { return point.pixel.has_value(); }) ||
-      std::any_of(annotations.lines.begin(), annotations.lines.end(),
-                  [](const LinePair& line) { return line.line.has_value(); });
-  const bool kept = std::any_of(rounds.begin(), rounds.end(), [&](const AnnotationRound& round) {
-    return round.annotations == annotations;
-  });
-  if (on_image && !kept) rounds.push_back({"current annotations", time, annotations});
+  const auto placed = [](const auto& side) { return side.has_value(); };
+  const bool on_image = std::ranges::any_of(annotations.points, placed, &PointPair::pixel) ||
+                        std::ranges::any_of(annotations.lines, placed, &LinePair::line);
+  const auto kept = std::ranges::find(rounds, annotations, &AnnotationRound::annotations);
+  if (on_image && kept == rounds.end())
+    rounds.push_back({"current annotations", time, annotations});
   return rounds;
 }
 
@@ -97,9 +93,7 @@ Repeatability repeatability(const Annotations& first, const Annotations& second)
       first.lines, second.lines,
       [](const LinePair& a, const LinePair& b) { return acrossLine(*a.line, *b.line); },
       result.annotations);
-  std::sort(
-      result.annotations.begin(), result.annotations.end(),
-      [](const AnnotationDifference& a, const AnnotationDifference& b) { return a.id < b.id; });
+  std::ranges::sort(result.annotations, {}, &AnnotationDifference::id);
   double squares = 0.0;
   for (const AnnotationDifference& annotation : result.annotations)
     squares += annotation.difference_px.squaredNorm();

@@ -8,8 +8,7 @@ namespace {
 
 template <class Annotations>
 auto findIn(Annotations& annotations, const std::string& id) {
-  return std::find_if(annotations.begin(), annotations.end(),
-                      [&](const auto& annotation) { return annotation.id == id; });
+  return std::ranges::find(annotations, id, &Annotations::value_type::id);
 }
 
 template <class Annotation>
@@ -49,13 +48,12 @@ const LinePair* findLine(const Annotations& annotations, const std::string& id) 
   return find(annotations.lines, id);
 }
 
-Annotations withPoint(Annotations annotations, const std::string& replaced,
-                      const PointPair& point) {
+Annotations withPair(Annotations annotations, const std::string& replaced, const PointPair& point) {
   put(annotations.points, replaced, point);
   return annotations;
 }
 
-Annotations withLine(Annotations annotations, const std::string& replaced, const LinePair& line) {
+Annotations withPair(Annotations annotations, const std::string& replaced, const LinePair& line) {
   put(annotations.lines, replaced, line);
   return annotations;
 }

@@ -38,6 +38,10 @@ struct ModelEdge {
   Eigen::Vector3d start_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d end_in_station_m = Eigen::Vector3d::Zero();
 
+  /// The point at a share of the way from start (0) to end (1).
+  Eigen::Vector3d at(double share) const {
+    return (1.0 - share) * start_in_station_m + share * end_in_station_m;
+  }
   bool operator==(const ModelEdge&) const = default;
 };
 
@@ -84,8 +88,8 @@ const PointPair* findPoint(const Annotations& annotations, const std::string& id
 const LinePair* findLine(const Annotations& annotations, const std::string& id);
 
 /// A copy in which this annotation replaces the one with id `replaced`, or is appended.
-Annotations withPoint(Annotations annotations, const std::string& replaced, const PointPair& point);
-Annotations withLine(Annotations annotations, const std::string& replaced, const LinePair& line);
+Annotations withPair(Annotations annotations, const std::string& replaced, const PointPair& point);
+Annotations withPair(Annotations annotations, const std::string& replaced, const LinePair& line);
 /// A copy without the annotation of this id.
 Annotations withoutAnnotation(Annotations annotations, const std::string& id);
 
@@ -101,6 +105,8 @@ struct AnnotatedView {
   Camera camera;     ///< after prepareCamera
   Pose camera_from_rig;
   Annotations annotations;
+
+  bool operator==(const AnnotatedView&) const = default;
 };
 
 /// Kind of an annotation.

@@ -54,7 +54,7 @@ struct Record {
   int line = 0;
 };
 
-/// Reads the records of a text as RFC 4180 says; lines may also end with a line feed alone.
+/// Reads the records of a text (RFC 4180); lines may also end with a line feed alone.
 class CsvReader {
  public:
   CsvReader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}

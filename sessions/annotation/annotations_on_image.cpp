@@ -14,13 +14,13 @@ namespace {
 AnnotationResidual pointResidual(const Camera& camera, const PointPair& pair,
                                  const Pose& camera_from_station) {
   const PredictedPlace place = predictPlace(camera, camera_from_station, *pair.point_in_station_m);
-  AnnotationResidual annotation_residual;
-  annotation_residual.valid = place.valid;
-  if (!annotation_residual.valid) return annotation_residual;
-  annotation_residual.residual_px = *pair.pixel - place.pixel;
-  annotation_residual.predicted_by_xi = place.pixel_by_xi;
-  annotation_residual.depth_m = place.depth_m;
-  return annotation_residual;
+  AnnotationResidual residual;
+  residual.valid = place.valid;
+  if (!residual.valid) return residual;
+  residual.residual_px = *pair.pixel - place.pixel;
+  residual.predicted_by_xi = place.pixel_by_xi;
+  residual.depth_m = place.depth_m;
+  return residual;
 }
 
 constexpr int kFootRounds = 4;
@@ -35,7 +35,7 @@ double nearestToRay(const Ray& ray, const Eigen::Vector3d& start_m, const Eigen:
 /// End `i` of the line, from the foot of its perpendicular on the projected edge; false where that
 /// does not project, or the edge runs along the ray.
 bool endResidual(const Camera& camera, const Pose& camera_from_station, const ModelEdge& edge,
-                 const Eigen::Vector2d& seen, int i, AnnotationResidual& annotation_residual) {
+                 const Eigen::Vector2d& seen, int i, AnnotationResidual& residual) {
   Ray ray;
   if (!unprojectRay(camera, seen, ray)) return false;
   const Eigen::Vector3d way_m = edge.end_in_station_m - edge.start_in_station_m;
@@ -48,10 +48,9 @@ bool endResidual(const Camera& camera, const Pose& camera_from_station, const Mo
     if (!foot.valid || !(along.norm() > 1e-9 * foot.pixel_by_point.norm() * way_m.norm()))
       return false;
     const Eigen::Vector2d offset = seen - foot.pixel;
-    annotation_residual.across[i] = Eigen::Vector2d(-along.y(), along.x()).normalized();
-    annotation_residual.residual_px[i] = annotation_residual.across[i].dot(offset);
-    annotation_residual.predicted_by_xi.row(i) =
-        annotation_residual.across[i].transpose() * foot.pixel_by_xi;
+    residual.across[i] = Eigen::Vector2d(-along.y(), along.x()).normalized();
+    residual.residual_px[i] = residual.across[i].dot(offset);
+    residual.predicted_by_xi.row(i) = residual.across[i].transpose() * foot.pixel_by_xi;
     share += along.dot(offset) / along.squaredNorm();
   }
   return true;
@@ -59,16 +58,15 @@ bool endResidual(const Camera& camera, const Pose& camera_from_station, const Mo
 
 AnnotationResidual lineResidual(const Camera& camera, const LinePair& pair,
                                 const Pose& camera_from_station) {
-  AnnotationResidual annotation_residual;
+  AnnotationResidual residual;
   const double start_depth_m = (camera_from_station * pair.edge->start_in_station_m).z();
   const double end_depth_m = (camera_from_station * pair.edge->end_in_station_m).z();
-  if (!(start_depth_m > 0.0) || !(end_depth_m > 0.0)) return annotation_residual;
-  annotation_residual.valid =
-      endResidual(camera, camera_from_station, *pair.edge, pair.line->start, 0,
-                  annotation_residual) &&
-      endResidual(camera, camera_from_station, *pair.edge, pair.line->end, 1, annotation_residual);
-  annotation_residual.depth_m = 0.5 * (start_depth_m + end_depth_m);
-  return annotation_residual;
+  if (!(start_depth_m > 0.0) || !(end_depth_m > 0.0)) return residual;
+  residual.valid =
+      endResidual(camera, camera_from_station, *pair.edge, pair.line->start, 0, residual) &&
+      endResidual(camera, camera_from_station, *pair.edge, pair.line->end, 1, residual);
+  residual.depth_m = 0.5 * (start_depth_m + end_depth_m);
+  return residual;
 }
 
 constexpr int kMostSteps = 200;
@@ -88,18 +86,17 @@ bool isNegligible(const Vector6d& xi, const Pose& pose) {
 
 PredictedPlace predictPlace(const Camera& camera, const Pose& camera_from_station,
                             const Eigen::Vector3d& point_in_station_m) {
-  PredictedPlace predicted_place;
+  PredictedPlace place;
   const Eigen::Vector3d point = camera_from_station * point_in_station_m;
-  predicted_place.valid =
-      projectWithJacobian(camera, point, predicted_place.pixel, predicted_place.pixel_by_point);
-  if (!predicted_place.valid) return predicted_place;
-  predicted_place.depth_m = point.z();
+  place.valid = projectWithJacobian(camera, point, place.pixel, place.pixel_by_point);
+  if (!place.valid) return place;
+  place.depth_m = point.z();
   // The point moves by omega x p + v.
   for (int i = 0; i < 2; ++i) {
-    const Eigen::Vector3d row = predicted_place.pixel_by_point.row(i).transpose();
-    predicted_place.pixel_by_xi.row(i) << point.cross(row).transpose(), row.transpose();
+    const Eigen::Vector3d row = place.pixel_by_point.row(i).transpose();
+    place.pixel_by_xi.row(i) << point.cross(row).transpose(), row.transpose();
   }
-  return predicted_place;
+  return place;
 }
 
 bool isInImage(const Camera& camera, const Eigen::Vector2d& pixel) {
@@ -120,10 +117,8 @@ std::vector<Eigen::Vector2d> edgeOnImage(const Camera& camera, const Pose& camer
                                          const ModelEdge& edge, int pieces) {
   std::vector<Eigen::Vector2d> places;
   for (int i = 0; i <= pieces; ++i) {
-    const double share = static_cast<double>(i) / pieces;
-    const Eigen::Vector3d point_m =
-        (1.0 - share) * edge.start_in_station_m + share * edge.end_in_station_m;
-    const PredictedPlace place = predictPlace(camera, camera_from_station, point_m);
+    const PredictedPlace place =
+        predictPlace(camera, camera_from_station, edge.at(static_cast<double>(i) / pieces));
     if (place.valid) places.push_back(place.pixel);
   }
   return places;

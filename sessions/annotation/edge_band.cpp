@@ -15,8 +15,8 @@ constexpr double kNormalQuantile = 1.959963984540054;  ///< 95 % of a Gaussian l
 constexpr int kSections = 16;  ///< of an edge, to learn how long it is in the image
 constexpr int kMostSections = 4096;
 
-/// What of the scene is nearest at each pixel. Edges lie where depth jumps, so a place is seen when
-/// that holds for one of the nine pixels around it.
+/// Depth of the nearest surface at each pixel. Edges lie where depth jumps, so a place is seen when
+/// nothing hides it at one of the nine pixels around it.
 class DepthImage {
  public:
   DepthImage(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station)
@@ -60,8 +60,7 @@ struct PosedEdge {
   const ModelEdge& edge;
 
   PredictedPlace at(double t) const {
-    return predictPlace(camera, camera_from_station,
-                        (1.0 - t) * edge.start_in_station_m + t * edge.end_in_station_m);
+    return predictPlace(camera, camera_from_station, edge.at(t));
   }
 
   bool isOnImage(const PredictedPlace& place) const {
@@ -74,11 +73,10 @@ struct PosedEdge {
     bool in_image = false;
     PredictedPlace before = at(0.0);
     for (int i = 1; i <= kSections; ++i) {
-      const PredictedPlace predicted_place = at(static_cast<double>(i) / kSections);
-      if (before.valid && predicted_place.valid)
-        length_px += (predicted_place.pixel - before.pixel).norm();
-      in_image = in_image || isOnImage(before) || isOnImage(predicted_place);
-      before = predicted_place;
+      const PredictedPlace place = at(static_cast<double>(i) / kSections);
+      if (before.valid && place.valid) length_px += (place.pixel - before.pixel).norm();
+      in_image = in_image || isOnImage(before) || isOnImage(place);
+      before = place;
     }
     return in_image ? length_px : 0.0;
   }
@@ -92,12 +90,12 @@ std::optional<BandPlace> bandPlace(const PosedEdge& posed, const PredictedPlace&
       (posed.edge.end_in_station_m - posed.edge.start_in_station_m).normalized();
   const Eigen::Vector2d along = place.pixel_by_point * direction;
   if (!(along.norm() > 1e-9 * place.pixel_by_point.norm())) return {};
-  BandPlace band_place;
-  band_place.pixel = place.pixel;
-  band_place.normal = Eigen::Vector2d(-along.y(), along.x()).normalized();
-  const Eigen::Matrix<double, 1, 6> row = band_place.normal.transpose() * place.pixel_by_xi;
-  band_place.half_width_px = kNormalQuantile * std::sqrt(std::max(0.0, row.dot(row * covariance)));
-  return band_place;
+  BandPlace band;
+  band.pixel = place.pixel;
+  band.normal = Eigen::Vector2d(-along.y(), along.x()).normalized();
+  const Eigen::Matrix<double, 1, 6> row = band.normal.transpose() * place.pixel_by_xi;
+  band.half_width_px = kNormalQuantile * std::sqrt(std::max(0.0, row.dot(row * covariance)));
+  return band;
 }
 
 void addPieces(const PosedEdge& posed, const DepthImage& depth, const Matrix6d& covariance,

@@ -268,7 +268,7 @@ std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Ve
   if (patch.empty()) return {};
   Eigen::Vector2d from = inside;
   std::optional<EllipseSnap> snap;
-  // Once more from the centre that was found: all directions then see the ellipse alike.
+  // The second round starts from the centre found, from which all rays meet the ellipse alike.
   for (int round = 0; round < 2; ++round) {
     std::vector<cv::Point2f> points;
     for (int i = 0; i < kDirections; ++i) {
@@ -285,23 +285,22 @@ std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Ve
     double squares = 0.0;
     for (const cv::Point2f& point : points)
       squares += distanceFrom(*ellipse, point) * distanceFrom(*ellipse, point);
-    EllipseSnap ellipse_snap;
-    ellipse_snap.centre = {ellipse->center.x, ellipse->center.y};
-    ellipse_snap.half_axes_px = 0.5 * Eigen::Vector2d(ellipse->size.height, ellipse->size.width);
-    ellipse_snap.angle_rad = (ellipse->angle + 90.0) * std::numbers::pi / 180.0;
-    if (ellipse_snap.half_axes_px.x() < ellipse_snap.half_axes_px.y()) {
-      std::swap(ellipse_snap.half_axes_px.x(), ellipse_snap.half_axes_px.y());
-      ellipse_snap.angle_rad += 0.5 * std::numbers::pi;
+    EllipseSnap fit;
+    fit.centre = {ellipse->center.x, ellipse->center.y};
+    fit.half_axes_px = 0.5 * Eigen::Vector2d(ellipse->size.height, ellipse->size.width);
+    fit.angle_rad = (ellipse->angle + 90.0) * std::numbers::pi / 180.0;
+    if (fit.half_axes_px.x() < fit.half_axes_px.y()) {
+      std::swap(fit.half_axes_px.x(), fit.half_axes_px.y());
+      fit.angle_rad += 0.5 * std::numbers::pi;
     }
-    ellipse_snap.angle_rad = std::fmod(ellipse_snap.angle_rad, std::numbers::pi);
-    ellipse_snap.support = static_cast<double>(points.size()) / kDirections;
-    ellipse_snap.rms_px = std::sqrt(squares / static_cast<double>(points.size()));
-    if (ellipse_snap.support < kLeastSupport ||
-        ellipse_snap.half_axes_px.y() < kSmallestEllipse_px ||
-        ellipse_snap.half_axes_px.x() > radius_px || !patch.contains(ellipse_snap.centre))
+    fit.angle_rad = std::fmod(fit.angle_rad, std::numbers::pi);
+    fit.support = static_cast<double>(points.size()) / kDirections;
+    fit.rms_px = std::sqrt(squares / static_cast<double>(points.size()));
+    if (fit.support < kLeastSupport || fit.half_axes_px.y() < kSmallestEllipse_px ||
+        fit.half_axes_px.x() > radius_px || !patch.contains(fit.centre))
       return {};
-    snap = ellipse_snap;
-    from = ellipse_snap.centre;
+    snap = fit;
+    from = fit.centre;
   }
   return snap;
 }

@@ -69,8 +69,7 @@ std::vector<Landmark> withAnnotations(std::vector<Landmark> landmarks,
   for (const PointPair& point : annotations.points) {
     if (!point.point_in_station_m) continue;
     const Landmark landmark{point.id, *point.point_in_station_m, point.comment};
-    const auto same = std::find_if(landmarks.begin(), landmarks.end(),
-                                   [&](const Landmark& item) { return item.name == point.id; });
+    const auto same = std::ranges::find(landmarks, point.id, &Landmark::name);
     if (same == landmarks.end())
       landmarks.push_back(landmark);
     else

@@ -54,12 +54,9 @@ bool mayPass(const Camera& camera, const Pose& camera_from_station, const ModelE
 /// best one is narrowed down.
 std::optional<Eigen::Vector3d> nearestOnEdge(const Camera& camera, const Pose& camera_from_station,
                                              const ModelEdge& edge, const Eigen::Vector2d& pixel) {
-  const auto at = [&](double t) {
-    return ((1.0 - t) * edge.start_in_station_m + t * edge.end_in_station_m).eval();
-  };
   const auto distance = [&](double t) {
     Eigen::Vector2d seen;
-    return project(camera, camera_from_station * at(t), seen) ? (seen - pixel).norm() : 1e9;
+    return project(camera, camera_from_station * edge.at(t), seen) ? (seen - pixel).norm() : 1e9;
   };
   constexpr int kParts = 16;
   int best = 0;
@@ -78,7 +75,7 @@ std::optional<Eigen::Vector3d> nearestOnEdge(const Camera& camera, const Pose& c
     const double b = high - (high - low) / 3.0;
     (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
   }
-  return at(0.5 * (low + high));
+  return edge.at(0.5 * (low + high));
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/solution_file.h"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/cameras/frame_tree.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
@@ -23,22 +20,15 @@ constexpr double kThousand = 1000.0;  ///< mm in a metre, mrad in a radian
 constexpr const char* kWeaknessNames[] = {"too_few",   "few",       "collinear", "coplanar",
                                           "clustered", "one_depth", "imprecise"};
 
-/// Roots of three entries of the diagonal, in thousandths.
-ordered_json sigmas(const Matrix6d& covariance, int first) {
-  ordered_json json = ordered_json::array();
-  for (int i = first; i < first + 3; ++i)
-    json.push_back(kThousand * std::sqrt(std::max(0.0, covariance(i, i))));
-  return json;
-}
-
 ordered_json viewJson(const AnnotatedView& view, const Pose& camera_from_station,
                       const Matrix6d& covariance) {
+  const Vector6d sigma = kThousand * sigmasOf(covariance);
   return {{"name", view.name},
           {"camera_from_rig", toJson(view.camera_from_rig)},
           {"camera_from_station", toJson(camera_from_station)},
           {"covariance", toJson(covariance)},
-          {"sigma_mm", sigmas(covariance, 3)},
-          {"sigma_mrad", sigmas(covariance, 0)}};
+          {"sigma_mm", toJson(Eigen::Vector3d(sigma.tail<3>()))},
+          {"sigma_mrad", toJson(Eigen::Vector3d(sigma.head<3>()))}};
 }
 
 ordered_json annotationJson(std::span<const AnnotatedView> views,

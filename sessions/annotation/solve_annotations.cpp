@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include <opencv2/calib3d.hpp>
 
@@ -35,8 +36,8 @@ std::vector<Correspondence> correspondencesOf(const AnnotatedView& view) {
   return correspondences;
 }
 
-/// What OpenCV's solvers say where most points of a view agree (P3P with RANSAC, then SQPnP, and
-/// IPPE for points in a plane, which may have two poses), camera from station. Bearings are those
+/// Poses, camera from station, by OpenCV's solvers from the points of a view that agree: P3P with
+/// RANSAC, then SQPnP, and IPPE for points in a plane, which may have two poses. Bearings are those
 /// of the camera's centre in the plane z = 1: exact enough for a start, also where the pupil moves.
 std::vector<Pose> consensus(const AnnotatedView& view, double threshold_px) {
   std::vector<cv::Point3d> points;
@@ -90,15 +91,9 @@ std::vector<Pose> consensus(const AnnotatedView& view, double threshold_px) {
 /// Where least squares over annotations may begin: poses that agree with most points of the view
 /// that has the most of them. None where no view has four, or none agree.
 std::vector<Pose> firstPoses(std::span<const AnnotatedView> views) {
-  const AnnotatedView* most = nullptr;
-  std::size_t most_points = kFewestPosePoints - 1;
-  for (const AnnotatedView& view : views) {
-    const std::size_t points = correspondencesOf(view).size();
-    if (points <= most_points) continue;
-    most = &view;
-    most_points = points;
-  }
-  if (most == nullptr) return {};
+  const auto count = [](const AnnotatedView& view) { return correspondencesOf(view).size(); };
+  const auto most = std::ranges::max_element(views, {}, count);
+  if (most == views.end() || count(*most) < kFewestPosePoints) return {};
   // Careful annotations first; then any pose at all, for annotations that are far out.
   for (const double threshold_px : {kFirstThreshold_px, 10.0 * kFirstThreshold_px, 1e4}) {
     std::vector<Pose> poses = consensus(*most, threshold_px);
@@ -134,6 +129,9 @@ struct Fit {
   Pose rig_from_station;
   NormalEquations equations;
   std::vector<double> weight;  ///< one per annotation
+
+  double weights() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
+  double rms_px() const { return std::sqrt(equations.squares / std::max(1.0, 2.0 * weights())); }
 };
 
 std::vector<double> weightedNorms(std::span<const AnnotatedView> views,
@@ -189,12 +187,6 @@ std::optional<Fit> fitFrom(std::span<const AnnotatedView> views,
   return fit;
 }
 
-double rmsOf(const Fit& fit) {
-  double weights = 0.0;
-  for (const double weight : fit.weight) weights += weight;
-  return std::sqrt(fit.equations.squares / std::max(1.0, 2.0 * weights));
-}
-
 /// The better of what the starts lead to. Robust fits leave annotations out: the one with more left
 /// wins.
 std::optional<Fit> bestFit(std::span<const AnnotatedView> views,
@@ -227,9 +219,8 @@ std::optional<AmbiguousPose> ambiguousPoseOf(std::span<const AnnotatedView> view
   const Eigen::Quaterniond turn =
       (other->rig_from_station.rotation * fit.rig_from_station.rotation.conjugate()).normalized();
   if (rotationLog(turn).norm() < kAmbiguousAngle_rad) return {};
-  const double rms_px = rmsOf(*other);
-  if (rms_px > std::max(kAmbiguousFloor_px, kAmbiguousRatio * rmsOf(fit))) return {};
-  return AmbiguousPose{other->rig_from_station, rms_px};
+  if (other->rms_px() > std::max(kAmbiguousFloor_px, kAmbiguousRatio * fit.rms_px())) return {};
+  return AmbiguousPose{other->rig_from_station, other->rms_px()};
 }
 
 /// Residual scaled by its own deviation: what an annotation pulls on the pose makes its residual
@@ -240,7 +231,7 @@ double normalizedResidual(const AnnotationResidual& annotation, const Matrix6d& 
   Eigen::Matrix2d variance = noise_px * noise_px * Eigen::Matrix2d::Identity() +
                              (1.0 - 2.0 * weight) * annotation.predicted_by_xi * camera_covariance *
                                  annotation.predicted_by_xi.transpose();
-  // An annotation that alone holds the pose has no residual to speak of.
+  // The residual of an annotation that alone determines the pose is nearly 0.
   for (int i = 0; i < 2; ++i) variance(i, i) = std::max(variance(i, i), 1e-4 * noise_px * noise_px);
   double largest = 0.0;
   for (int i = 0; i < 2; ++i)
@@ -257,20 +248,20 @@ void describeAnnotations(std::span<const AnnotatedView> views,
     const AnnotatedView& view = views[annotations[i].view];
     const AnnotationResidual annotation =
         annotationResidual(view, annotations[i], solution.camera_from_station[annotations[i].view]);
-    SolvedAnnotation solved_annotation;
-    solved_annotation.address = annotations[i];
-    solved_annotation.weight = fit.weight[i];
-    solved_annotation.projected = annotation.valid;
+    SolvedAnnotation solved;
+    solved.address = annotations[i];
+    solved.weight = fit.weight[i];
+    solved.projected = annotation.valid;
     if (annotation.valid) {
-      solved_annotation.residual_px = annotation.residual_px;
-      solved_annotation.residual_mm =
+      solved.residual_px = annotation.residual_px;
+      solved.residual_mm =
           annotation.residual_px * (1000.0 * annotation.depth_m / pixelsPerRadian(view.camera));
       const double noise_px =
           annotationSigma_px(views, annotations[i]) * std::max(solution.noise_factor, 1e-6);
-      solved_annotation.normalized = normalizedResidual(
-          annotation, cameraCovariance(solution, view), noise_px, solved_annotation.weight);
+      solved.normalized =
+          normalizedResidual(annotation, cameraCovariance(solution, view), noise_px, solved.weight);
     }
-    solution.annotations.push_back(solved_annotation);
+    solution.annotations.push_back(solved);
   }
 }
 
@@ -281,9 +272,7 @@ AnnotationsSolution describe(std::span<const AnnotatedView> views,
   solution.rig_from_station = fit.rig_from_station;
   for (const AnnotatedView& view : views)
     solution.camera_from_station.push_back(view.camera_from_rig * fit.rig_from_station);
-  double weights = 0.0;
-  for (const double weight : fit.weight) weights += weight;
-  const double freedom = 2.0 * weights - kPoseUnknowns;
+  const double freedom = 2.0 * fit.weights() - kPoseUnknowns;
   solution.degrees_of_freedom = std::max(0, static_cast<int>(std::floor(freedom + 1e-9)));
   if (solution.degrees_of_freedom > 0)
     solution.noise_factor = std::sqrt(fit.equations.squares / freedom);
@@ -294,7 +283,7 @@ AnnotationsSolution describe(std::span<const AnnotatedView> views,
   double squares_px = 0.0;
   for (const SolvedAnnotation& annotation : solution.annotations)
     squares_px += annotation.weight * annotation.residual_px.squaredNorm();
-  solution.rms_px = std::sqrt(squares_px / std::max(1.0, 2.0 * weights));
+  solution.rms_px = std::sqrt(squares_px / std::max(1.0, 2.0 * fit.weights()));
   solution.ambiguous = ambiguousPoseOf(views, annotations, fit, robust);
   return solution;
 }

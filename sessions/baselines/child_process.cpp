@@ -60,7 +60,7 @@ class BrokenPipeBlock {
   sigset_t broken_pipe_, before_;
 };
 
-/// A group of its own, so that whatever it starts ends with it; no signal blocked or ignored.
+/// In a process group of its own, so that its children end with it; no signal blocked or ignored.
 pid_t spawnShell(const std::string& command, const Pipe& in, const Pipe& out, const Pipe& err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -207,7 +207,7 @@ void ChildProcess::died() {
   if (errors_ >= 0) drainErrors();
   std::string reason = "closed its pipes";
   if (ended == pid_) {
-    kill(-pid_, SIGKILL);  // whatever it has left behind
+    kill(-pid_, SIGKILL);  // its remaining children
     pid_ = -1;
     reason = howItEnded(status);
   }

@@ -10,12 +10,12 @@
 namespace boresight::sessions {
 namespace {
 
-/// Of a matcher that does not tell its own.
+/// For a matcher that does not announce a size.
 constexpr int kFrameWidth_px = 640, kFrameHeight_px = 480;
-/// Frames with less of the object than this share are not worth a look.
+/// Frames with a smaller share of the object are left out.
 constexpr double kLeastObject = 0.02;
 
-/// What a rectangle of both images holds of one of them.
+/// The part of an image in a rectangle.
 ImageView partOf(const ImageView& image, const cv::Rect& frame) {
   return {image.row(frame.y) + frame.x, frame.width, frame.height, image.stride};
 }
@@ -45,10 +45,6 @@ std::vector<cv::Rect> subframes(const cv::Mat& intensity, int width, int height)
         frames.push_back(frame);
     }
   return frames;
-}
-
-bool holds(const SearchWindow& window, double x, double y) {
-  return x >= window.x_min && x <= window.x_max && y >= window.y_min && y <= window.y_max;
 }
 
 class ExternalMethod final : public MatchingMethod {
@@ -100,7 +96,7 @@ class ExternalMethod final : public MatchingMethod {
     match.y = frame.y + pair.second_y;
     match.score = 2.0 * pair.score;
     match.found = true;
-    if (holds(match.window, match.x, match.y)) found.push_back(match);
+    if (holds(match.window, cv::Point2d(match.x, match.y))) found.push_back(match);
   }
 
   std::string command_;

@@ -7,6 +7,8 @@
 
 namespace boresight::sessions {
 
+inline constexpr const char* kEqualizedHelp = "Equalizes the histograms of image and render first.";
+
 /// Sum of squared differences of intensities (OpenCV TM_SQDIFF).
 struct SsdOptions {
   bool masked = true;
@@ -17,9 +19,7 @@ struct SsdOptions {
     visit(OptionInfo{"ssd.masked", "", 0, 1,
                      "Compares only pixels of the rendered object, not of the background."},
           self.masked);
-    visit(OptionInfo{"ssd.equalized", "", 0, 1,
-                     "Equalizes the histograms of image and render first."},
-          self.equalized);
+    visit(OptionInfo{"ssd.equalized", "", 0, 1, kEqualizedHelp}, self.equalized);
   }
 };
 
@@ -40,9 +40,7 @@ struct NccOptions {
     visit(OptionInfo{"ncc.masked", "", 0, 1,
                      "Correlates only pixels of the rendered object, not of the background."},
           self.masked);
-    visit(OptionInfo{"ncc.equalized", "", 0, 1,
-                     "Equalizes the histograms of image and render first."},
-          self.equalized);
+    visit(OptionInfo{"ncc.equalized", "", 0, 1, kEqualizedHelp}, self.equalized);
   }
 };
 
@@ -69,9 +67,7 @@ struct OrbOptions {
     visit(OptionInfo{"orb.ratio", "", 0.1, 1.0,
                      "The best distance must be below this share of the second best; 1: no limit."},
           self.ratio);
-    visit(OptionInfo{"orb.equalized", "", 0, 1,
-                     "Equalizes the histograms of image and render first."},
-          self.equalized);
+    visit(OptionInfo{"orb.equalized", "", 0, 1, kEqualizedHelp}, self.equalized);
   }
 };
 

@@ -52,38 +52,30 @@ std::string methodNames() {
   return names;
 }
 
-std::unique_ptr<MatchingMethod> Methods::take(const std::string& method) {
-  const NamedMethod* named = findMethod(method);
-  if (named == nullptr) throw std::invalid_argument("there is no method \"" + method + "\"");
-  {
-    const std::lock_guard lock(mutex_);
-    auto& idle = idle_[method];
-    if (!idle.empty()) {
-      std::unique_ptr<MatchingMethod> taken = std::move(idle.back());
-      idle.pop_back();
-      return taken;
-    }
-  }
-  return named->make(setup_);
-}
-
-void Methods::giveBack(const std::string& method, std::unique_ptr<MatchingMethod> used) {
-  const std::lock_guard lock(mutex_);
-  idle_[method].push_back(std::move(used));
-}
-
 LocalizationTrace Methods::localize(const std::string& method, const LocalizationProblem& problem,
                                     const LocalizerOptions& options, const RunSettings& settings,
                                     const std::stop_token& stop) {
   if (method == kWhs) return sessions::localize(problem, options, settings, stop);
-  std::unique_ptr<MatchingMethod> taken = take(method);
+  const NamedMethod* named = findMethod(method);
+  if (named == nullptr) throw std::invalid_argument("there is no method \"" + method + "\"");
+  std::unique_ptr<MatchingMethod> taken;
+  {
+    const std::lock_guard lock(mutex_);
+    auto& idle = idle_[method];
+    if (!idle.empty()) {
+      taken = std::move(idle.back());
+      idle.pop_back();
+    }
+  }
+  if (!taken) taken = named->make(setup_);
   LocalizerOptions roomy = options;
   roomy.templates.count = std::max(options.templates.count, taken->capacity());
   RunSettings with_method = settings;
   with_method.method = taken.get();
   // One that fails is not used again.
   LocalizationTrace trace = sessions::localize(problem, roomy, with_method, stop);
-  giveBack(method, std::move(taken));
+  const std::lock_guard lock(mutex_);
+  idle_[method].push_back(std::move(taken));
   return trace;
 }
 

@@ -42,9 +42,6 @@ class Methods {
                              const std::stop_token& stop = {});
 
  private:
-  std::unique_ptr<MatchingMethod> take(const std::string& method);
-  void giveBack(const std::string& method, std::unique_ptr<MatchingMethod> used);
-
   MethodSetup setup_;
   std::mutex mutex_;  ///< guards the members below
   std::map<std::string, std::vector<std::unique_ptr<MatchingMethod>>> idle_;

@@ -60,7 +60,7 @@ struct Correlation {
   bool equalized = false;
 };
 
-/// Smallest standard deviation of a template's gray values that says where it is.
+/// Smallest standard deviation of the gray values of a template that can be located.
 constexpr double kLeastContrast = 1.0;
 
 /// Offset of a parabola's top from the middle of three values, where it is one.
@@ -115,12 +115,10 @@ class CorrelationMethod final : public MatchingMethod {
     } else {
       scores += 1.0F;
     }
-    for (int y = 0; y < scores.rows; ++y) {
-      float* row = scores.ptr<float>(y);
-      // A correlation beyond 1 is one divided by a contrast that is rounding alone.
-      for (int x = 0; x < scores.cols; ++x)
-        if (!(row[x] >= 0.0F && row[x] <= 2.001F)) row[x] = 0.0F;
-    }
+    // A correlation beyond 1 is one divided by a contrast that is rounding alone.
+    cv::Mat valid;
+    cv::inRange(scores, 0.0F, 2.001F, valid);
+    scores.setTo(0.0F, valid == 0);
     return scores;
   }
 
@@ -170,12 +168,6 @@ struct Candidate {
   int best = -1;
   int distance = kFurthest, second = kFurthest;
 };
-
-bool holds(const SearchWindow& window, const cv::Point2f& point) {
-  return point.x >= static_cast<float>(window.x_min) &&
-         point.x <= static_cast<float>(window.x_max) &&
-         point.y >= static_cast<float>(window.y_min) && point.y <= static_cast<float>(window.y_max);
-}
 
 int distanceOf(const Features& one, int i, const Features& other, int j) {
   return static_cast<int>(

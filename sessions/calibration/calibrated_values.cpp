@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <string_view>
 
 #include "sessions/text/text_table.h"
 
@@ -14,16 +14,16 @@ namespace {
 /// A smaller change is within the scatter of the observations.
 constexpr double kLeastChange_sigmas = 3.0;
 
-constexpr std::array<std::pair<const char*, const char*>, 3> kParameterNames = {
-    {{"focal_relative", "focal length"},
-     {"centre_x_px", "principal point x"},
-     {"centre_y_px", "principal point y"}}};
-
-std::string nameOf(const std::string& parameter) {
-  for (const auto& [known, name] : kParameterNames)
-    if (parameter == known) return name;
-  return "distortion " + parameter;
-}
+/// A parameter that moves one member of the camera; all others are coefficients of the distortion.
+struct NamedParameter {
+  std::string_view parameter;
+  const char* name;
+  double Camera::*member;
+};
+constexpr std::array<NamedParameter, 3> kNamedParameters = {
+    {{"focal_relative", "focal length", &Camera::fx},
+     {"centre_x_px", "principal point x", &Camera::cx},
+     {"centre_y_px", "principal point y", &Camera::cy}}};
 
 }  // namespace
 
@@ -39,32 +39,26 @@ std::vector<CalibratedValue> calibratedValues(const Camera& before,
   std::vector<CalibratedValue> values;
   std::size_t coefficient = 0;
   for (const CalibrationParameter& parameter : calibration.parameters) {
-    const std::string name = nameOf(parameter.name);
-    if (parameter.name == "focal_relative") {
-      values.push_back({name, "px", before.fx, after.fx, parameter.sigma * before.fx});
-    } else if (parameter.name == "centre_x_px") {
-      values.push_back({name, "px", before.cx, after.cx, parameter.sigma});
-    } else if (parameter.name == "centre_y_px") {
-      values.push_back({name, "px", before.cy, after.cy, parameter.sigma});
-    } else {
-      values.push_back({name, "", before.distortion[coefficient], after.distortion[coefficient],
-                        parameter.sigma});
+    const auto named =
+        std::ranges::find(kNamedParameters, parameter.name, &NamedParameter::parameter);
+    if (named == kNamedParameters.end()) {
+      values.push_back({"distortion " + parameter.name, "", before.distortion[coefficient],
+                        after.distortion[coefficient], parameter.sigma});
       ++coefficient;
+      continue;
     }
+    const double unit_px = parameter.name == "focal_relative" ? before.fx : 1.0;
+    values.push_back({named->name, "px", before.*named->member, after.*named->member,
+                      parameter.sigma * unit_px});
   }
   return values;
 }
 
 std::string changeText(std::span<const CalibratedValue> values) {
-  const auto largest = std::max_element(
-      values.begin(), values.end(), [](const CalibratedValue& a, const CalibratedValue& b) {
-        return std::abs(a.changeInSigmas()) < std::abs(b.changeInSigmas());
-      });
-  if (largest == values.end() ||
-      std::none_of(values.begin(), values.end(),
-                   [](const CalibratedValue& value) { return value.isDetermined(); }))
-    return "";
-  const double change = std::abs(largest->changeInSigmas());
+  const auto size = [](const CalibratedValue& value) { return std::abs(value.changeInSigmas()); };
+  if (std::ranges::none_of(values, &CalibratedValue::isDetermined)) return "";
+  const auto largest = std::ranges::max_element(values, {}, size);
+  const double change = size(*largest);
   const std::string sigmas = fixedText(change, 1) + " sigma";
   if (change < kLeastChange_sigmas)
     return "No change is needed: the largest, of the " + largest->name + ", is " + sigmas + ".";
@@ -74,10 +68,10 @@ std::string changeText(std::span<const CalibratedValue> values) {
 
 std::string directionText(const Undetermined& direction) {
   std::string text = direction.text;
-  for (const auto& [parameter, name] : kParameterNames)
+  for (const auto& [parameter, name, member] : kNamedParameters)
     for (std::size_t at = 0; (at = text.find(parameter, at)) != std::string::npos;) {
-      text.replace(at, std::string(parameter).size(), name);
-      at += std::string(name).size();
+      text.replace(at, parameter.size(), name);
+      at += std::string_view(name).size();
     }
   return text;
 }

@@ -17,7 +17,7 @@ constexpr double kArmLossSigmas = 3.0;
 constexpr double kRotationScale_rad = 0.1;
 constexpr double kTranslationScale_m = 0.1;
 
-/// The end effector by telemetry against the one that image and mounting say, in units of sigma.
+/// Difference between the end effector by telemetry and that by image and mounting, in sigmas.
 struct ArmResidual {
   const ArmPosture* posture;
   const Pose* camera_from_end_effector;

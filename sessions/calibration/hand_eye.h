@@ -13,8 +13,8 @@ namespace boresight::sessions {
 
 /// A posture of the arm in which the station was localized.
 struct ArmPosture {
-  Pose base_from_end_effector;   ///< by telemetry
-  Pose camera_from_station;      ///< by the image
+  Pose base_from_end_effector;        ///< by telemetry
+  Pose camera_from_station;           ///< by the image
   double sigma_rotation_rad = 1e-3;   ///< of both together, per axis
   double sigma_translation_m = 1e-3;  ///< of both together, per axis, at the end effector
 };

@@ -63,19 +63,16 @@ constexpr double kNothingSeen = 10.0;
 constexpr CheckName kCompeting{"convergence_competing", "Best competing pose"};
 
 std::string foundText(const ConvergenceResult& convergence) {
-  const auto elsewhere =
-      std::count_if(convergence.competing.begin(), convergence.competing.end(),
-                    [](const ConvergedPose& converged_pose) { return !converged_pose.mirrored; });
+  const auto elsewhere = std::ranges::count(convergence.competing, false, &ConvergedPose::mirrored);
   return "Of " + std::to_string(convergence.seeds) + " other seeds " +
          std::to_string(convergence.returned) + " returned to this pose and " +
          std::to_string(elsewhere) + " converged elsewhere.";
 }
 
-/// A worse one elsewhere does not speak against the pose: a nearly symmetric station has many.
+/// A competing pose that fits worse is no evidence against the pose: a nearly symmetric station has
+/// many.
 Check competingPoseCheck(const ConvergenceResult& convergence, const CheckLimits& limits) {
-  const auto best = std::max_element(
-      convergence.competing.begin(), convergence.competing.end(),
-      [](const ConvergedPose& a, const ConvergedPose& b) { return a.coverage < b.coverage; });
+  const auto best = std::ranges::max_element(convergence.competing, {}, &ConvergedPose::coverage);
   if (best == convergence.competing.end() && convergence.returned == 0)
     return notAskedCheck(kCompeting, "No other seed converged to a pose for comparison.");
   if (best == convergence.competing.end())
@@ -96,7 +93,7 @@ Check competingPoseCheck(const ConvergenceResult& convergence, const CheckLimits
 }  // namespace
 
 std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& limits,
-                             const std::optional<ConvergenceResult>& convergence) {
+                             const ConvergenceResult& convergence) {
   std::vector<Check> checks;
   PredictedEdges edges;
   if (subject.loaded != nullptr)
@@ -116,11 +113,11 @@ ConvergenceResult convergenceTest(const ReviewSubject& subject, int seeds,
                                   const std::stop_token& stop,
                                   const std::function<void(const ConvergenceResult&)>& after_each) {
   ConvergenceResult result;
-  if (subject.loaded == nullptr) return result;
+  if (subject.loaded == nullptr || seeds <= 0) return result;
   const RunPlan plan = planFor(subject);
   result.coverage = coverageOfPose(*subject.loaded, subject.camera_from_station).value();
-  // First, so that a stop leaves what `seeds` alone says: running this many again gives the same.
-  for (int axis = 0; axis < 3 && seeds > 0 && !stop.stop_requested(); ++axis)
+  // Mirror images come first: also after a stop, the result depends on its number of seeds alone.
+  for (int axis = 0; axis < 3 && !stop.stop_requested(); ++axis)
     tryMirrorImage(subject, plan, axis, stop, result);
   for (int number = 1; number <= seeds && !stop.stop_requested(); ++number) {
     const SessionCase& session_case = subject.loaded->source;
@@ -138,19 +135,16 @@ bool isConvergenceCheck(const std::string& check_id) {
   return check_id == kReturned.id || check_id == kCompeting.id;
 }
 
-void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
-                          const CheckLimits& limits, std::vector<Check>& checks) {
-  if (!convergence || convergence->seeds == 0) {
-    const char* why = "No convergence test: a competing pose is not excluded.";
-    checks.push_back(notAskedCheck(kReturned, why));
-    checks.push_back(notAskedCheck(kCompeting, why));
-    return;
-  }
+void addConvergenceChecks(const ConvergenceResult& convergence, const CheckLimits& limits,
+                          std::vector<Check>& checks) {
+  if (convergence.seeds == 0)
+    return addNotAsked({kReturned, kCompeting},
+                       "No convergence test: a competing pose is not excluded.", checks);
   checks.push_back(measuredCheck(
-      kReturned, "%", 100.0 * convergence->returned / convergence->seeds,
-      limits.convergence_percent, LimitSide::kAtLeast, foundText(*convergence),
+      kReturned, "%", 100.0 * convergence.returned / convergence.seeds, limits.convergence_percent,
+      LimitSide::kAtLeast, foundText(convergence),
       "Convergence depends on the seed: compare with annotations or with another image."));
-  checks.push_back(competingPoseCheck(*convergence, limits));
+  checks.push_back(competingPoseCheck(convergence, limits));
 }
 
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis) {

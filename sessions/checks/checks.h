@@ -45,9 +45,9 @@ struct ConvergenceResult {
 };
 
 /// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty, and of
-/// the station's three mirror images from the pose in question. Deterministic. A stop returns the
-/// result so far; a repetition with its number of seeds gives the same result. `after_each`
-/// receives the result so far.
+/// the station's three mirror images from the pose in question; 0 seeds: runs nothing.
+/// Deterministic. A stop returns the result so far; a repetition with its number of seeds gives the
+/// same result. `after_each` receives the result so far.
 ConvergenceResult convergenceTest(
     const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
     const std::function<void(const ConvergenceResult&)>& after_each = {});
@@ -55,16 +55,17 @@ ConvergenceResult convergenceTest(
 /// Whether the check belongs to the convergence test.
 bool isConvergenceCheck(const std::string& check_id);
 /// Checks of the convergence test: enough seeds return to the pose, and none converges to another.
-void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
-                          const CheckLimits& limits, std::vector<Check>& checks);
+/// Not applicable without seeds.
+void addConvergenceChecks(const ConvergenceResult& convergence, const CheckLimits& limits,
+                          std::vector<Check>& checks);
 
 /// The same case with its station mirrored in the plane through the middle of its matched box.
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis);
 
 /// All checks of a pose, always the same ones in the same order; checks without the data they need
-/// are not applicable. `convergence`: result of the convergence test, if it was run.
+/// are not applicable.
 std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& limits,
-                             const std::optional<ConvergenceResult>& convergence = {});
+                             const ConvergenceResult& convergence = {});
 
 /// Checks of the run itself: convergence, shrinking corrections, and the last matching iteration's
 /// inliers, their spread, window borders and margins. Always the same checks in the same order; not

@@ -9,10 +9,11 @@
 #include <Eigen/Cholesky>
 
 #include "core/accept/edge_width.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/checks/checks.h"
 #include "sessions/checks/edge_evidence.h"
 #include "sessions/decision/check.h"
-#include "sessions/session/input_sigmas.h"
+#include "sessions/session/stated_inputs.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -33,8 +34,7 @@ constexpr const char* kCameraRemedy =
 constexpr const char* kUndecidedRemedy =
     "The image cannot confirm the camera: state its calibration_sigma, or use a nearer image.";
 
-Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
-  const double seen = evidence.coverage.value();
+Check coverageCheck(double seen, const CheckLimits& limits) {
   return measuredCheck(
       kCoverage, "%", 100.0 * seen, limits.coverage_percent, LimitSide::kAtLeast,
       "The image shows " + percentText(seen) +
@@ -42,10 +42,10 @@ Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       "Check the overlay: pose or mesh is wrong, or much of the station is dark or hidden.");
 }
 
-Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
-  if (evidence.clutter.whole == 0.0)
+Check clutterCheck(const Share& clutter, const CheckLimits& limits) {
+  if (clutter.whole == 0.0)
     return notAskedCheck(kClutter, "The image shows no edges on the station.");
-  const double share = evidence.clutter.value();
+  const double share = clutter.value();
   return measuredCheck(
       kClutter, "%", 100.0 * share, limits.clutter_percent, LimitSide::kAtMost,
       percentText(share) + " of the image's edges on the station are not predicted by the pose.",
@@ -55,10 +55,10 @@ Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
 
 /// In print and texture the displaced outlines are seen, too: the evidence expected of a right pose
 /// is then small, and a right pose still has it.
-Check evidenceCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
-  if (evidence.evidence.whole <= 0.0)
+Check evidenceCheck(const Share& evidence, const CheckLimits& limits) {
+  if (evidence.whole <= 0.0)
     return notAskedCheck(kEvidence, "Displaced outlines are seen as often as a right pose's.");
-  const double share = evidence.evidence.value();
+  const double share = evidence.value();
   return measuredCheck(kEvidence, "%", 100.0 * share, limits.evidence_percent, LimitSide::kAtLeast,
                        "Beyond chance, the predicted edges show " +
                            percentText(std::max(0.0, share)) +
@@ -66,12 +66,9 @@ Check evidenceCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
                        "Other poses explain the image about as well: check the overlay.");
 }
 
-Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
-  const double seen = evidence.coverage.value();
-  const auto least =
-      std::max_element(evidence.fall_off.begin(), evidence.fall_off.end(),
-                       [](const FallOff& a, const FallOff& b) { return a.coverage < b.coverage; });
-  if (least == evidence.fall_off.end() || seen <= 0.0)
+Check fallOffCheck(double seen, const std::vector<FallOff>& fall_off, const CheckLimits& limits) {
+  const auto least = std::ranges::max_element(fall_off, {}, &FallOff::coverage);
+  if (least == fall_off.end() || seen <= 0.0)
     return notAskedCheck(kFallOff, "No predicted edge is seen.");
   const double fall = 1.0 - least->coverage / seen;
   return measuredCheck(kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
@@ -131,12 +128,9 @@ Check cameraCheck(const CheckName& name, const std::string& what, const AskedCha
 
 void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
                      const CheckLimits& limits, std::vector<Check>& checks) {
-  if (!fit) {
-    const char* why = "The edges do not determine the camera together with the pose.";
-    checks.push_back(notAskedCheck(kFocal, why));
-    checks.push_back(notAskedCheck(kCentre, why));
-    return;
-  }
+  if (!fit)
+    return addNotAsked({kFocal, kCentre},
+                       "The edges do not determine the camera together with the pose.", checks);
   const double percent = 100.0 / session_case.camera.fx;
   const InputSigmas known(session_case);
   checks.push_back(
@@ -151,7 +145,7 @@ void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& ses
                   limits.centre_px, limits.sigmas));
 }
 
-/// A requirement in pixels says nothing of millimetres, and a wrong camera hardly moves the image.
+/// A requirement in pixels does not limit millimetres, and a wrong camera hardly moves the image.
 bool asksForMetric(const Requirement& requirement) {
   return requirement.normal_mm || requirement.lateral_mm || requirement.rotation_deg;
 }
@@ -161,12 +155,6 @@ bool canBeMeasured(const ReviewSubject& subject) {
   const GrayImage& image = subject.loaded->image;
   const Camera& camera = subject.loaded->source.camera;
   return !image.pixels.empty() && image.width == camera.width && image.height == camera.height;
-}
-
-void addAll(const CheckName& name, bool failed, const std::string& why,
-            std::vector<Check>& checks) {
-  checks.push_back(failed ? statedCheck(name, false, why, "Check the overlay and the seed.")
-                          : notAskedCheck(name, why));
 }
 
 using Vector9d = Eigen::Matrix<double, 9, 1>;
@@ -198,18 +186,16 @@ std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camer
                         const Pose& camera_from_station) {
   std::vector<Row> rows;
   Eigen::AlignedBox2d box;
-  for (const LookedPlace& looked_place : looked) box.extend(looked_place.place.pixel);
+  for (const auto& [place, found] : looked) box.extend(place.pixel);
   const double tile_px = std::max(box.sizes().maxCoeff() / kTiles, 1.0);
-  for (const LookedPlace& looked_place : looked) {
-    PlaceDerivative by;
-    if (!looked_place.found || std::abs(looked_place.found->offset_px) > kFarthest_px ||
-        !placeDerivative(camera, camera_from_station, looked_place.place.point_in_station_m, by))
-      continue;
+  for (const auto& [place, found] : looked) {
+    const PredictedPlace at = predictPlace(camera, camera_from_station, place.point_in_station_m);
+    if (!found || std::abs(found->offset_px) > kFarthest_px || !at.valid) continue;
     Row row;
-    row.by.head<6>() = by.by_pose.transpose() * looked_place.place.normal;
-    row.by.tail<3>() = by.by_camera.transpose() * looked_place.place.normal;
-    row.residual_px = looked_place.found->offset_px;
-    const Eigen::Vector2d tile = (looked_place.place.pixel - box.min()) / tile_px;
+    row.by.head<6>() = at.pixel_by_xi.transpose() * place.normal;
+    row.by.tail<3>() = pixelByCamera(camera, at.pixel).transpose() * place.normal;
+    row.residual_px = found->offset_px;
+    const Eigen::Vector2d tile = (place.pixel - box.min()) / tile_px;
     row.tile = {static_cast<int>(tile.x()), static_cast<int>(tile.y())};
     rows.push_back(row);
   }
@@ -279,34 +265,30 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   if (!measurable || edges.places.empty()) {
     const std::string why = measurable ? "The pose shows no edge of the station in the image."
                                        : "No image has the camera's size.";
-    addAll(kCoverage, measurable, why, checks);
-    for (const CheckName& name : {kClutter, kEvidence, kFallOff, kWidth, kFocal, kCentre})
-      addAll(name, false, why, checks);
-    return;
+    checks.push_back(measurable
+                         ? statedCheck(kCoverage, false, why, "Check the overlay and the seed.")
+                         : notAskedCheck(kCoverage, why));
+    return addNotAsked({kClutter, kEvidence, kFallOff, kWidth, kFocal, kCentre}, why, checks);
   }
   const LoadedCase& loaded = *subject.loaded;
   const ImageEdges image(loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
                          regionOf(edges));
   const auto places = thinned(edges.places, kEdgePlaces);
   const auto looked = lookAt(image, places);
-  EdgeEvidence evidence;
-  evidence.coverage = coverageOf(looked);
-  evidence.clutter = clutterOf(image, edges, looked);
-  evidence.evidence = evidenceOf(image, looked);
-  evidence.fall_off = fallOffOf(image, places, loaded.source.camera, subject.camera_from_station);
-  checks.push_back(coverageCheck(evidence, limits));
-  checks.push_back(clutterCheck(evidence, limits));
-  checks.push_back(evidenceCheck(evidence, limits));
-  checks.push_back(fallOffCheck(evidence, limits));
+  const Camera& camera = loaded.source.camera;
+  const double seen = coverageOf(looked).value();
+  checks.push_back(coverageCheck(seen, limits));
+  checks.push_back(clutterCheck(clutterOf(image, edges, looked), limits));
+  checks.push_back(evidenceCheck(evidenceOf(image, looked), limits));
+  checks.push_back(
+      fallOffCheck(seen, fallOffOf(image, places, camera, subject.camera_from_station), limits));
   checks.push_back(widthCheck(loaded, places, limits));
-  if (asksForMetric(subject.requirement)) {
-    addCameraChecks(fitCamera(looked, loaded.source.camera, subject.camera_from_station),
-                    loaded.source, limits, checks);
-    return;
-  }
-  for (const CheckName& name : {kFocal, kCentre})
-    checks.push_back(notAskedCheck(
-        name, "The requirement is in pixels, where a wrong camera has little effect."));
+  if (!asksForMetric(subject.requirement))
+    return addNotAsked({kFocal, kCentre},
+                       "The requirement is in pixels, where a wrong camera has little effect.",
+                       checks);
+  addCameraChecks(fitCamera(looked, camera, subject.camera_from_station), loaded.source, limits,
+                  checks);
 }
 
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,

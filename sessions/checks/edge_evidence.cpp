@@ -10,6 +10,7 @@
 
 #include "core/base/math.h"
 #include "core/render/edge_render.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/checks/checks.h"
 #include "sessions/checks/generalized_eigen.h"
 #include "sessions/trace/scene_render.h"
@@ -59,23 +60,22 @@ cv::Mat1i nearestPlaces(const cv::Rect& region, const std::vector<EdgePlace>& pl
   return nearest;
 }
 
-/// How steep an edge of the image is that counts as clutter.
-double clutterSlope(const std::vector<LookedPlace>& looked) {
-  std::vector<double> slopes;
-  for (const LookedPlace& looked_place : looked)
-    if (looked_place.found && std::abs(looked_place.found->offset_px) <= kNearEdge_px)
-      slopes.push_back(looked_place.found->slope);
-  if (slopes.empty()) return 2.0 * kLeastSlope;
-  return std::max(kLeastSlope, kShareOfSlope * medianOf(slopes));
-}
-
 bool isSeen(const std::optional<FoundEdge>& found) {
   return found && std::abs(found->offset_px) <= kNearEdge_px;
 }
 
+/// How steep an edge of the image is that counts as clutter.
+double clutterSlope(const std::vector<LookedPlace>& looked) {
+  std::vector<double> slopes;
+  for (const auto& [place, found] : looked)
+    if (isSeen(found)) slopes.push_back(found->slope);
+  if (slopes.empty()) return 2.0 * kLeastSlope;
+  return std::max(kLeastSlope, kShareOfSlope * medianOf(slopes));
+}
+
 double longerSideOf(const std::vector<LookedPlace>& looked) {
   Eigen::AlignedBox2d box;
-  for (const LookedPlace& looked_place : looked) box.extend(looked_place.place.pixel);
+  for (const auto& [place, found] : looked) box.extend(place.pixel);
   return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
 }
 
@@ -127,9 +127,9 @@ Motion motionOf(const std::vector<EdgePlace>& places, const Camera& camera,
   Motion motion;
   double count = 0.0;
   for (const EdgePlace& place : places) {
-    PlaceDerivative by;
-    if (!placeDerivative(camera, camera_from_station, place.point_in_station_m, by)) continue;
-    const Eigen::Matrix<double, 2, 6> rows = by.by_pose * shift;
+    const PredictedPlace at = predictPlace(camera, camera_from_station, place.point_in_station_m);
+    if (!at.valid) continue;
+    const Eigen::Matrix<double, 2, 6> rows = at.pixel_by_xi * shift;
     const Vector6d across = rows.transpose() * place.normal;
     motion.image += rows.transpose() * rows;
     motion.across += across * across.transpose();
@@ -268,9 +268,9 @@ std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgeP
 
 Share coverageOf(const std::vector<LookedPlace>& looked) {
   Share share;
-  for (const LookedPlace& looked_place : looked) {
-    share.whole += looked_place.place.length_px;
-    if (isSeen(looked_place.found)) share.part += looked_place.place.length_px;
+  for (const auto& [place, found] : looked) {
+    share.whole += place.length_px;
+    if (isSeen(found)) share.part += place.length_px;
   }
   return share;
 }
@@ -371,12 +371,12 @@ std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePl
 
 PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
                             const Pose& camera_from_station) {
-  PredictedEdges predicted_edges;
+  PredictedEdges edges;
   RenderTrace render;
-  if (renderScene(camera, mesh, camera_from_station, render) != Status::kOk) return predicted_edges;
+  if (renderScene(camera, mesh, camera_from_station, render) != Status::kOk) return edges;
   const RenderView owned = render.view();
   const EdgeRender& view = owned.render;
-  predicted_edges.places.reserve(render.pixels.size());
+  edges.places.reserve(render.pixels.size());
   for (const EdgePixel& pixel : render.pixels) {
     EdgePlace place;
     if (!edgeLinePoint(view, mesh, pixel, place.pixel, place.point_in_station_m)) continue;
@@ -385,26 +385,17 @@ PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
     if (!place.normal.allFinite()) continue;
     // A thin line has a pixel per column or per row, whichever it crosses more of.
     place.length_px = 1.0 / place.normal.cwiseAbs().maxCoeff();
-    predicted_edges.places.push_back(place);
+    edges.places.push_back(place);
   }
-  predicted_edges.mask = std::move(render.mask);
-  return predicted_edges;
+  edges.mask = std::move(render.mask);
+  return edges;
 }
 
-bool placeDerivative(const Camera& camera, const Pose& camera_from_station,
-                     const Eigen::Vector3d& point_in_station_m, PlaceDerivative& derivative) {
-  const Eigen::Vector3d p = camera_from_station * point_in_station_m;
-  Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> by_point;
-  if (!projectWithJacobian(camera, p, pixel, by_point)) return false;
-  for (int row = 0; row < 2; ++row) {
-    derivative.by_pose.block<1, 3>(row, 0) =
-        p.cross(Eigen::Vector3d(by_point.row(row).transpose())).transpose();
-    derivative.by_pose.block<1, 3>(row, 3) = by_point.row(row);
-  }
-  derivative.by_camera << (pixel.x() - camera.cx) / camera.fx, 1.0, 0.0,
-      (pixel.y() - camera.cy) / camera.fx, 0.0, 1.0;
-  return true;
+Eigen::Matrix<double, 2, 3> pixelByCamera(const Camera& camera, const Eigen::Vector2d& pixel) {
+  Eigen::Matrix<double, 2, 3> by_camera;
+  by_camera << (pixel.x() - camera.cx) / camera.fx, 1.0, 0.0, (pixel.y() - camera.cy) / camera.fx,
+      0.0, 1.0;
+  return by_camera;
 }
 
 std::vector<EdgePlace> thinned(const std::vector<EdgePlace>& places, std::size_t most) {

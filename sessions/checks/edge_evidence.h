@@ -84,15 +84,8 @@ struct PredictedEdges {
 PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
                             const Pose& camera_from_station);
 
-/// Derivatives of a predicted edge point in the image.
-struct PlaceDerivative {
-  Eigen::Matrix<double, 2, 6> by_pose;    ///< px per left perturbation (rad, m), camera frame
-  Eigen::Matrix<double, 2, 3> by_camera;  ///< px per px of focal length (fy with fx), cx, cy
-};
-/// False when the place does not project.
-[[nodiscard]] bool placeDerivative(const Camera& camera, const Pose& camera_from_station,
-                                   const Eigen::Vector3d& point_in_station_m,
-                                   PlaceDerivative& derivative);
+/// Derivative of a projected point by the camera: px per px of focal length (fy with fx), cx, cy.
+Eigen::Matrix<double, 2, 3> pixelByCamera(const Camera& camera, const Eigen::Vector2d& pixel);
 
 /// At most `most` places, evenly spaced in their order.
 std::vector<EdgePlace> thinned(const std::vector<EdgePlace>& places, std::size_t most);
@@ -120,16 +113,6 @@ struct FallOff {
   double coverage = 0.0;  ///< with the pose displaced this way, the mean of both senses
 };
 
-/// Edge evidence of a pose, measured on the raw image with independent filters, from a render of
-/// the final pose.
-struct EdgeEvidence {
-  Share coverage;  ///< predicted length with an image edge nearby, of the length searched
-  Share clutter;   ///< image edges on the station that no predicted edge explains
-  Share evidence;  ///< nats beyond chance, of those expected at a correct pose
-  std::vector<FallOff> fall_off;  ///< the six axes at the station, and the least determined
-                                  ///< direction
-};
-
 /// A predicted edge point and the edge found there.
 struct LookedPlace {
   EdgePlace place;
@@ -138,6 +121,7 @@ struct LookedPlace {
 
 /// Searches the image at all places that can be searched, in their order.
 std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places);
+/// Predicted length with an image edge nearby, of the length searched.
 Share coverageOf(const std::vector<LookedPlace>& looked);
 
 /// Coverage of the station at a pose, rendered again; an empty share when no edge can be searched.
@@ -156,6 +140,7 @@ Share evidenceOf(const ImageEdges& image, const std::vector<LookedPlace>& looked
 /// The region in which a pose's edges are searched, including displaced ones.
 cv::Rect regionOf(const PredictedEdges& edges);
 
+/// Along the six axes at the station, and in the least determined direction.
 std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
                                const Camera& camera, const Pose& camera_from_station);
 

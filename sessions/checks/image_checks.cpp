@@ -24,11 +24,9 @@ void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
         loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
         stationRegion(loaded.source.camera, loaded.scene.view(), subject.camera_from_station));
   }
-  if (!quality) {
-    for (const CheckName& name : {kSaturated, kRange, kSharpness})
-      checks.push_back(notAskedCheck(name, "The pose shows no pixel of the station in the image."));
-    return;
-  }
+  if (!quality)
+    return addNotAsked({kSaturated, kRange, kSharpness},
+                       "The pose shows no pixel of the station in the image.", checks);
   checks.push_back(measuredCheck(
       kSaturated, "%", 100.0 * quality->saturated_share, limits.saturated_percent,
       LimitSide::kAtMost,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/checks/pose_uncertainty.h"
 #include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/text/text_table.h"
@@ -30,56 +29,23 @@ int decimalsOfTwoDigits(double value) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 0, 4);
 }
 
-class Figures {
- public:
-  Figures(const ReviewSubject& subject, double sigmas) : subject_(subject), sigmas_(sigmas) {
-    std::optional<Pose> end_effector;
-    if (subject.loaded != nullptr) end_effector = subject.loaded->source.camera_from_end_effector;
-    place_ = std::string(" at the ") + judgedPlace(end_effector);
-    if (!subject.covariance.known()) return;
-    image_ = poseSigma(subject.covariance.picture, end_effector);
-    total_ = poseSigma(subject.covariance.total(), end_effector);
-  }
-
-  PrecisionFigure ofTranslation(const CheckName& check, const char* where,
-                                double PoseSigma::*member,
-                                std::optional<double> required_mm) const {
-    PrecisionFigure figure = of(check, where, "mm", member, required_mm);
-    figure.place = place_;
-    return figure;
-  }
-
-  PrecisionFigure of(const CheckName& check, const char* where, const char* unit,
-                     double PoseSigma::*member, std::optional<double> required) const {
-    PrecisionFigure figure{check, where, unit, required, {}, {}, {}};
-    if (!image_ || !total_) return figure;
-    figure.found = sigmas_ * (*total_.*member);
-    figure.by_image = sigmas_ * (*image_.*member);
-    return figure;
-  }
-
-  PrecisionFigure inImage(std::optional<double> required_px) const {
-    PrecisionFigure figure{kProjection, "in the image", "px", required_px, {}, {}, {}};
-    if (!required_px || !image_ || !total_ || subject_.loaded == nullptr) return figure;
-    const auto vertices = matchedVertices(subject_.loaded->scene.view());
-    const auto sigma_px = [&](const Matrix6d& covariance) -> std::optional<double> {
-      const auto one = projectionSigma(subject_.loaded->source.camera, subject_.camera_from_station,
-                                       vertices, covariance);
-      return one ? std::optional(sigmas_ * *one) : std::nullopt;
-    };
-    figure.found = sigma_px(subject_.covariance.total());
-    figure.by_image = sigma_px(subject_.covariance.picture);
-    if (!figure.by_image) figure.found.reset();
-    return figure;
-  }
-
- private:
-  const ReviewSubject& subject_;
-  double sigmas_;
-  std::string place_;
-  std::optional<PoseSigma> image_;
-  std::optional<PoseSigma> total_;
-};
+/// The standard deviation in the image; without figures where `known` is false or it is not
+/// limited.
+PrecisionFigure imageFigure(const ReviewSubject& subject, double sigmas, bool known) {
+  PrecisionFigure figure{
+      kProjection, "in the image", "px", subject.requirement.projection_px, {}, {}, {}};
+  if (!figure.required || !known || subject.loaded == nullptr) return figure;
+  const auto vertices = matchedVertices(subject.loaded->scene.view());
+  const auto sigma_px = [&](const Matrix6d& covariance) -> std::optional<double> {
+    const auto one = projectionSigma(subject.loaded->source.camera, subject.camera_from_station,
+                                     vertices, covariance);
+    return one ? std::optional(sigmas * *one) : std::nullopt;
+  };
+  figure.found = sigma_px(subject.covariance.total());
+  figure.by_image = sigma_px(subject.covariance.picture);
+  if (!figure.by_image) figure.found.reset();
+  return figure;
+}
 
 }  // namespace
 
@@ -120,28 +86,39 @@ std::string PoseQuality::text() const {
 }
 
 PoseQuality poseQuality(const ReviewSubject& subject, double sigmas) {
-  const Figures figures(subject, sigmas);
+  const std::optional<Pose> end_effector = subject.endEffector();
+  const std::string place = std::string(" at the ") + judgedPlace(end_effector);
+  std::optional<PoseSigma> by_image, total;
+  if (subject.covariance.known()) {
+    by_image = poseSigma(subject.covariance.picture, end_effector);
+    total = poseSigma(subject.covariance.total(), end_effector);
+  }
+  const bool known = by_image && total;
+  const auto figure = [&](const CheckName& check, const char* where, const char* unit,
+                          double PoseSigma::*member, std::optional<double> limit,
+                          const std::string& at) {
+    PrecisionFigure result{check, where, unit, limit, {}, {}, at};
+    if (!known) return result;
+    result.found = sigmas * (*total.*member);
+    result.by_image = sigmas * (*by_image.*member);
+    return result;
+  };
   const Requirement& required = subject.requirement;
   PoseQuality quality;
   quality.sigmas = sigmas;
-  quality.figures = {figures.ofTranslation(kNormal, "along the view axis", &PoseSigma::normal_mm,
-                                           required.normal_mm),
-                     figures.ofTranslation(kLateral, "across the view axis", &PoseSigma::lateral_mm,
-                                           required.lateral_mm),
-                     figures.of(kRotation, "of the view axis", "mrad",
-                                &PoseSigma::out_of_plane_mrad, rotationLimit_mrad(required)),
-                     figures.inImage(required.projection_px)};
+  quality.figures = {figure(kNormal, "along the view axis", "mm", &PoseSigma::normal_mm,
+                            required.normal_mm, place),
+                     figure(kLateral, "across the view axis", "mm", &PoseSigma::lateral_mm,
+                            required.lateral_mm, place),
+                     figure(kRotation, "of the view axis", "mrad", &PoseSigma::out_of_plane_mrad,
+                            rotationLimit_mrad(required), ""),
+                     imageFigure(subject, sigmas, known)};
   return quality;
 }
 
 PoseQuality runQuality(const Session& session, const std::shared_ptr<const LoadedCase>& loaded,
                        const LocalizationTrace& run) {
-  ReviewSubject subject;
-  subject.loaded = loaded;
-  subject.requirement = requirementOf(session, loaded->source);
-  subject.camera_from_station = run.camera_from_station;
-  subject.covariance =
-      poseCovariance(loaded->source, loaded->scene.view(), run.camera_from_station, run.covariance);
+  const ReviewSubject subject = runSubject(loaded, requirementOf(session, loaded->source), run);
   return poseQuality(subject, checkLimits(session.review.preset, session.review.limits).sigmas);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/pnp/normal_equations.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/checks/edge_evidence.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/text/text_table.h"
@@ -27,19 +28,42 @@ ByCamera pointByCamera(const Camera& camera, const Eigen::Vector3d& point_in_cam
   return by;
 }
 
-/// How a place's distance along its normal follows each component of the vectors; false where the
+/// How a place's distance along its normal follows each component of the vectors; empty where the
 /// place does not project.
-bool distanceByVectors(const std::vector<VectorStep>& steps, const EdgePlace& place,
-                       const Eigen::Vector3d& point_in_camera_m, Eigen::VectorXd& by) {
+std::optional<Eigen::RowVectorXd> distanceByVectors(const std::vector<VectorStep>& steps,
+                                                    const EdgePlace& place,
+                                                    const Eigen::Vector3d& point_in_camera_m) {
+  Eigen::RowVectorXd by(std::ssize(steps));
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const auto& [before, after, width] = steps[i];
     Eigen::Vector2d from, to;
     if (!project(before.camera, before.displaced_from_camera * point_in_camera_m, from) ||
         !project(after.camera, after.displaced_from_camera * point_in_camera_m, to))
-      return false;
+      return {};
     by[static_cast<Eigen::Index>(i)] = place.normal.dot(to - from) / width;
   }
-  return true;
+  return by;
+}
+
+/// -(J' J)^-1 J' K with K from `distance_by`: the derivative of a place's distance along its normal
+/// by some parameters, or nothing. `right`: zeros, a column for each parameter.
+template <class Right, class DistanceBy>
+std::optional<Right> poseBy(std::span<const EdgePlace> places, const Camera& camera,
+                            const Pose& camera_from_station, Right right,
+                            const DistanceBy& distance_by) {
+  Matrix6d information = Matrix6d::Zero();
+  for (const EdgePlace& place : places) {
+    const PredictedPlace at = predictPlace(camera, camera_from_station, place.point_in_station_m);
+    if (!at.valid) continue;
+    const auto distance = distance_by(place, at.pixel);
+    if (!distance) continue;
+    const Vector6d row = at.pixel_by_xi.transpose() * place.normal;
+    information += row * row.transpose();
+    right -= row * *distance;
+  }
+  Matrix6d inverse;
+  if (!invert(information, inverse)) return {};
+  return inverse * right;
 }
 
 /// The calibration's part of a pose's covariance where focal length and principal point err alone.
@@ -58,18 +82,11 @@ Matrix6d bySigmas(std::span<const EdgePlace> places, const Camera& camera,
 
 std::optional<ByCamera> poseByCamera(std::span<const EdgePlace> places, const Camera& camera,
                                      const Pose& camera_from_station) {
-  Matrix6d information = Matrix6d::Zero();
-  ByCamera right = ByCamera::Zero();
-  for (const EdgePlace& place : places) {
-    PlaceDerivative by;
-    if (!placeDerivative(camera, camera_from_station, place.point_in_station_m, by)) continue;
-    const Vector6d row = by.by_pose.transpose() * place.normal;
-    information += row * row.transpose();
-    right -= row * (place.normal.transpose() * by.by_camera);
-  }
-  Matrix6d inverse;
-  if (!invert(information, inverse)) return {};
-  return inverse * right;
+  return poseBy(places, camera, camera_from_station, ByCamera(ByCamera::Zero()),
+                [&camera](const EdgePlace& place, const Eigen::Vector2d& pixel) {
+                  return std::optional<Eigen::RowVector3d>(place.normal.transpose() *
+                                                           pixelByCamera(camera, pixel));
+                });
 }
 
 std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
@@ -77,23 +94,12 @@ std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
                                              const Pose& camera_from_station) {
   const std::vector<VectorStep> steps = vectorSteps(camera);
   if (steps.empty()) return {};
-  const auto size = static_cast<Eigen::Index>(steps.size());
-  Matrix6d information = Matrix6d::Zero();
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(6, size);
-  Eigen::VectorXd by_vectors(size);
-  for (const EdgePlace& place : places) {
-    PlaceDerivative by;
-    if (!placeDerivative(camera, camera_from_station, place.point_in_station_m, by) ||
-        !distanceByVectors(steps, place, camera_from_station * place.point_in_station_m,
-                           by_vectors))
-      continue;
-    const Vector6d row = by.by_pose.transpose() * place.normal;
-    information += row * row.transpose();
-    right -= row * by_vectors.transpose();
-  }
-  Matrix6d inverse;
-  if (!invert(information, inverse)) return {};
-  return inverse * right;
+  return poseBy(places, camera, camera_from_station,
+                Eigen::MatrixXd(Eigen::MatrixXd::Zero(6, std::ssize(steps))),
+                [&](const EdgePlace& place, const Eigen::Vector2d&) {
+                  return distanceByVectors(steps, place,
+                                           camera_from_station * place.point_in_station_m);
+                });
 }
 
 PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,

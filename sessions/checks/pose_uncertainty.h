@@ -11,7 +11,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/decision/decision.h"
-#include "sessions/session/input_sigmas.h"
+#include "sessions/session/stated_inputs.h"
 
 namespace boresight::sessions {
 

@@ -11,7 +11,7 @@
 #include "sessions/decision/check.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/files/least_known.h"
-#include "sessions/session/input_sigmas.h"
+#include "sessions/session/stated_inputs.h"
 
 namespace boresight::sessions {
 namespace {
@@ -21,11 +21,6 @@ constexpr CheckName kTruth{"agreement_truth", "Agreement with the truth"};
 constexpr CheckName kCamera{"agreement_camera", "Agreement with the other camera"};
 constexpr CheckName kScale{"mesh_scale", "Mesh scale estimated by the rig"};
 
-std::optional<Pose> endEffector(const ReviewSubject& subject) {
-  if (subject.loaded == nullptr) return {};
-  return subject.loaded->source.camera_from_end_effector;
-}
-
 /// How far two poses are apart: in words, and as the largest part of what is allowed.
 struct Distance {
   double of_allowed = 0.0;            ///< 1: as far as allowed
@@ -33,61 +28,47 @@ struct Distance {
   std::string text;
 };
 
-class Measure {
- public:
-  /// `apart` is the covariance of the difference of both poses; zero: not known.
-  Measure(const ReviewSubject& subject, const Pose& other, const Matrix6d& apart, double sigmas)
-      : subject_(subject),
-        error_(poseError(other, subject.camera_from_station, endEffector(subject))),
-        sigmas_(sigmas),
-        sigma_(poseSigma(apart, endEffector(subject))) {
-    if (!subject.requirement.projection_px || subject.loaded == nullptr) return;
+/// `apart` is the covariance of the difference of both poses; zero: not known.
+Distance distanceTo(const Pose& other, const ReviewSubject& subject, const Matrix6d& apart,
+                    double sigmas) {
+  const Requirement& required = subject.requirement;
+  const std::optional<Pose> end_effector = subject.endEffector();
+  const PoseError error = poseError(other, subject.camera_from_station, end_effector);
+  const std::optional<PoseSigma> sigma = poseSigma(apart, end_effector);
+  Distance distance;
+  const auto add = [&](double value, double limit, double known_to, const char* words) {
+    const double allowed = std::hypot(limit, known_to);
+    distance.of_allowed = std::max(distance.of_allowed, allowed > 0.0 ? value / allowed : 1e6);
+    distance.covariance_dominates = distance.covariance_dominates || known_to > limit;
+    distance.text += (distance.text.empty() ? "" : ", ") + sentenceNumber(value) + " " + words;
+  };
+  const auto addIfLimited = [&](std::optional<double> limit, double value,
+                                double PoseSigma::*member, const char* words) {
+    if (limit) add(value, *limit, sigma ? sigmas * (*sigma.*member) : 0.0, words);
+  };
+  addIfLimited(required.normal_mm, std::abs(error.normal_mm), &PoseSigma::normal_mm, "mm along");
+  addIfLimited(required.lateral_mm, error.lateral_mm, &PoseSigma::lateral_mm, "mm across");
+  if (!distance.text.empty())
+    distance.text += std::string(" the view axis at the ") + judgedPlace(end_effector);
+  addIfLimited(rotationLimit_mrad(required), error.rotation_mrad, &PoseSigma::out_of_plane_mrad,
+               "mrad between the view axes");
+  if (!required.projection_px) return distance;
+  std::optional<double> error_px, sigma_px;
+  if (subject.loaded != nullptr) {
     const Camera& camera = subject.loaded->source.camera;
     const auto vertices = matchedVertices(subject.loaded->scene.view());
-    error_.projection_px = projectionError(camera, other, subject.camera_from_station, vertices);
-    sigma_px_ = projectionSigma(camera, subject.camera_from_station, vertices, apart);
+    error_px = projectionError(camera, other, subject.camera_from_station, vertices);
+    sigma_px = projectionSigma(camera, subject.camera_from_station, vertices, apart);
   }
-
-  Distance distance() {
-    const Requirement& required = subject_.requirement;
-    add(required.normal_mm, std::abs(error_.normal_mm), &PoseSigma::normal_mm, "mm along");
-    add(required.lateral_mm, error_.lateral_mm, &PoseSigma::lateral_mm, "mm across");
-    if (!made_.text.empty())
-      made_.text += std::string(" the view axis at the ") + judgedPlace(endEffector(subject_));
-    add(rotationLimit_mrad(required), error_.rotation_mrad, &PoseSigma::out_of_plane_mrad,
-        "mrad between the view axes");
-    constexpr double kHuge_px = 1e6;
-    if (required.projection_px)
-      note(error_.projection_px.value_or(kHuge_px), *required.projection_px,
-           sigmas_ * sigma_px_.value_or(0.0), "px in the image");
-    return made_;
-  }
-
- private:
-  void add(std::optional<double> required, double error, double PoseSigma::*member,
-           const char* words) {
-    if (required) note(error, *required, sigma_ ? sigmas_ * (*sigma_.*member) : 0.0, words);
-  }
-
-  void note(double error, double required, double known_to, const char* words) {
-    const double allowed = std::hypot(required, known_to);
-    made_.of_allowed = std::max(made_.of_allowed, allowed > 0.0 ? error / allowed : 1e6);
-    made_.covariance_dominates = made_.covariance_dominates || known_to > required;
-    made_.text += (made_.text.empty() ? "" : ", ") + sentenceNumber(error) + " " + words;
-  }
-
-  const ReviewSubject& subject_;
-  PoseError error_;
-  double sigmas_;
-  std::optional<PoseSigma> sigma_;
-  std::optional<double> sigma_px_;
-  Distance made_;
-};
+  constexpr double kHuge_px = 1e6;
+  add(error_px.value_or(kHuge_px), *required.projection_px, sigmas * sigma_px.value_or(0.0),
+      "px in the image");
+  return distance;
+}
 
 Check agreementCheck(const CheckName& name, const ReviewSubject& subject, const OtherPose& other,
                      const Matrix6d& apart, const CheckLimits& limits, const std::string& remedy) {
-  const Distance distance =
-      Measure(subject, other.camera_from_station, apart, limits.sigmas).distance();
+  const Distance distance = distanceTo(other.camera_from_station, subject, apart, limits.sigmas);
   if (distance.text.empty()) return notAskedCheck(name, "The requirement has no limits.");
   std::string found = "The pose and " + other.from + " differ by " + distance.text + ".";
   if (distance.covariance_dominates)
@@ -217,7 +198,7 @@ void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
 }
 
 bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_station) {
-  const Distance distance = Measure(subject, camera_from_station, Matrix6d::Zero(), 0.0).distance();
+  const Distance distance = distanceTo(camera_from_station, subject, Matrix6d::Zero(), 0.0);
   return !distance.text.empty() && distance.of_allowed <= 1.0;
 }
 

@@ -71,12 +71,6 @@ std::vector<OtherPose> otherCameras(const Session& session, const LoadedCase& lo
   return found;
 }
 
-void takeRun(LocalizationTrace run, ReviewSubject& subject) {
-  subject.run = std::move(run);
-  subject.camera_from_station = subject.run->camera_from_station;
-  subject.covariance.picture = subject.run->covariance;
-}
-
 /// InputError when the record cannot be read, or differs from the hash in the session.
 std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
                                                const LocalizationTrace& run) {
@@ -102,29 +96,42 @@ std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera
   return error;
 }
 
+ReviewSubject runSubject(std::shared_ptr<const LoadedCase> loaded, const Requirement& requirement,
+                         LocalizationTrace run) {
+  ReviewSubject subject;
+  subject.requirement = requirement;
+  subject.camera_from_station = run.camera_from_station;
+  subject.covariance =
+      poseCovariance(loaded->source, loaded->scene.view(), run.camera_from_station, run.covariance);
+  subject.run = std::move(run);
+  subject.loaded = std::move(loaded);
+  return subject;
+}
+
 ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
                             PoseSource source, const std::string& digest,
                             const RunReader& read_run) {
-  ReviewSubject subject;
   const SessionCase& session_case = loaded->source;
-  subject.requirement = requirementOf(session, session_case);
-  subject.source = source;
+  const Requirement requirement = requirementOf(session, session_case);
+  ReviewSubject subject;
   std::string reason;
   auto annotated = poseOfAnnotations(session, *loaded, reason);
   if (source == PoseSource::kRun) {
-    takeRun(read_run(runToReview(session, session_case.id, digest)), subject);
+    subject =
+        runSubject(loaded, requirement, read_run(runToReview(session, session_case.id, digest)));
     subject.onboard = againstOnboard(*loaded, *subject.run);
     subject.annotated = std::move(annotated);
   } else {
     if (!annotated)
       throw InputError("case " + session_case.id, "annotations", "they give no pose: " + reason);
+    subject.requirement = requirement;
     subject.camera_from_station = annotated->camera_from_station;
-    subject.covariance = annotated->covariance;
+    subject.covariance = poseCovariance(session_case, loaded->scene.view(),
+                                        subject.camera_from_station, annotated->covariance.picture);
+    subject.loaded = loaded;
   }
-  subject.covariance = poseCovariance(session_case, loaded->scene.view(),
-                                      subject.camera_from_station, subject.covariance.picture);
+  subject.source = source;
   if (session_case.rig) subject.other_cameras = otherCameras(session, *loaded, read_run);
-  subject.loaded = std::move(loaded);
   return subject;
 }
 

@@ -27,21 +27,27 @@ struct OtherPose {
 };
 
 /// A pose of a case with all data to check it. A value: it may be checked on any thread.
-struct ReviewSubject {
+struct ReviewSubject : JudgedPose {
   std::shared_ptr<const LoadedCase> loaded;
-  Requirement requirement;  ///< the case's own, else the preset's
-  PoseSource source = PoseSource::kRun;
-  Pose camera_from_station;
-  PoseCovariance covariance;
+  Requirement requirement;               ///< the case's own, else the preset's
   std::optional<LocalizationTrace> run;  ///< source of the pose; empty for annotated poses
   std::optional<OtherPose> annotated;    ///< by the case's annotations, unless these are the source
   std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
   std::optional<RecordComparison>
       onboard;  ///< comparison of the case's onboard record, if any, with the run
+
+  /// The case's camera_from_end_effector, if it is known.
+  std::optional<Pose> endEffector() const {
+    return loaded ? loaded->source.camera_from_end_effector : std::nullopt;
+  }
 };
 
 /// How far a pose is from the truth of its case; empty when the truth is not known.
 std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station);
+
+/// The pose of a run of this case, without other poses to compare it with.
+ReviewSubject runSubject(std::shared_ptr<const LoadedCase> loaded, const Requirement& requirement,
+                         LocalizationTrace run);
 
 /// Reads a recorded run: its trace, or a second run of the same inputs.
 using RunReader = std::function<LocalizationTrace(const RunRecord&)>;

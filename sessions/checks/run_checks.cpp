@@ -7,9 +7,8 @@
 
 #include "sessions/checks/generalized_eigen.h"
 #include "sessions/decision/check.h"
-#include "sessions/trace/acceptance.h"
 #include "sessions/trace/match_details.h"
-#include "sessions/trace/run_headline.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -23,11 +22,9 @@ constexpr CheckName kDepth{"inlier_depth", "Spread of the inliers in depth"};
 constexpr CheckName kBorder{"matches_at_border", "Matches on window borders"};
 constexpr CheckName kMargin{"peak_margin", "Best against second-best position"};
 
-constexpr const char* kFromAnnotations = "The pose comes from annotations, not from a run.";
-constexpr const char* kNoMatching = "The run has no matching iteration.";
 /// Half the width of a pixel distinguishes a line of edges from a plane of them.
 constexpr double kSpreadFloor_px = 1.0;
-/// A station whose edges lie within so small a part of their distance has no depth to speak of.
+/// A station whose edges spread by a smaller share of their distance counts as flat.
 constexpr double kLeastDepthShare = 0.01;
 
 std::string count(double value) { return std::to_string(static_cast<long>(std::lround(value))); }
@@ -43,14 +40,17 @@ Check convergedCheck(const LocalizationTrace& run) {
                      "Check the failed iteration; start nearer, or ignore unreliable pixels.");
 }
 
+bool cameToPose(const IterationTrace& iteration) {
+  return iteration.status == LocalizationStatus::kRunning ||
+         iteration.status == LocalizationStatus::kConverged;
+}
+
 /// Of the last attempt, those iterations that came to a pose.
 std::vector<const IterationTrace*> lastAttempt(const LocalizationTrace& run) {
   std::vector<const IterationTrace*> found;
   for (const auto& item : run.iterations) {
     if (!found.empty() && found.back()->attempt != item->attempt) found.clear();
-    if (item->status == LocalizationStatus::kRunning ||
-        item->status == LocalizationStatus::kConverged)
-      found.push_back(item.get());
+    if (cameToPose(*item)) found.push_back(item.get());
   }
   return found;
 }
@@ -100,17 +100,17 @@ struct InlierPlaces {
 };
 
 InlierPlaces inlierPlaces(const IterationTrace& iteration) {
-  InlierPlaces inlier_places;
+  InlierPlaces places;
   for (const MatchDetails& match : matchDetails(iteration)) {
     if (!match.inlier) continue;
-    inlier_places.inliers_px.push_back(match.found_px);
-    inlier_places.inlier_depths_m.push_back(match.depth_m);
+    places.inliers_px.push_back(match.found_px);
+    places.inlier_depths_m.push_back(match.depth_m);
   }
   for (const EdgePixel& pixel : iteration.render.pixels) {
-    inlier_places.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
-    inlier_places.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
+    places.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
+    places.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
   }
-  return inlier_places;
+  return places;
 }
 
 Check spreadCheck(const InlierPlaces& places, const CheckLimits& limits) {
@@ -172,11 +172,9 @@ Check marginCheck(const IterationTrace& iteration, const CheckLimits& limits) {
 void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
                        std::vector<Check>& checks) {
   const IterationTrace* iteration = lastMatching(run);
-  if (iteration == nullptr) {
-    for (const CheckName& name : {kCount, kRatio, kSpread, kDepth, kBorder, kMargin})
-      checks.push_back(notAskedCheck(name, kNoMatching));
-    return;
-  }
+  if (iteration == nullptr)
+    return addNotAsked({kCount, kRatio, kSpread, kDepth, kBorder, kMargin},
+                       "The run has no matching iteration.", checks);
   addCounts(*iteration, limits, checks);
   const InlierPlaces places = inlierPlaces(*iteration);
   checks.push_back(spreadCheck(places, limits));
@@ -186,8 +184,8 @@ void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
 }
 
 constexpr CheckName kOnboard{"agreement_onboard", "Agreement with the onboard record"};
-constexpr const char* kRemedy = "Compare both runs: the checked run is not the onboard run.";
 
+/// The first difference and those beyond limits.
 std::string differenceText(const RecordComparison& compared) {
   std::string text;
   if (compared.first) text = compared.first->text;
@@ -206,12 +204,10 @@ Eigen::Matrix2d scatterOf(std::span<const Eigen::Vector2d> points) {
 
 void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
                   std::vector<Check>& checks) {
-  if (!subject.run) {
-    for (const CheckName& name :
-         {kConverged, kCorrections, kCount, kRatio, kSpread, kDepth, kBorder, kMargin})
-      checks.push_back(notAskedCheck(name, kFromAnnotations));
-    return;
-  }
+  if (!subject.run)
+    return addNotAsked(
+        {kConverged, kCorrections, kCount, kRatio, kSpread, kDepth, kBorder, kMargin},
+        "The pose comes from annotations, not from a run.", checks);
   checks.push_back(convergedCheck(*subject.run));
   checks.push_back(correctionsCheck(*subject.run, limits));
   addMatchingChecks(*subject.run, limits, checks);
@@ -222,21 +218,17 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
     checks.push_back(notAskedCheck(kOnboard, "The case has no onboard record, or was not run."));
     return;
   }
-  const std::string difference = differenceText(*subject.onboard);
-  switch (subject.onboard->verdict) {
-    case RunVerdict::kEqual:
-      checks.push_back(
-          statedCheck(kOnboard, true, "The run equals the onboard run to the bit.", ""));
-      return;
-    case RunVerdict::kWithinLimits:
-      checks.push_back(statedCheck(
-          kOnboard, true, "The run agrees with the onboard run within limits. " + difference, ""));
-      return;
-    case RunVerdict::kDifferent:
-      break;
+  const RunVerdict verdict = subject.onboard->verdict;
+  if (verdict == RunVerdict::kEqual) {
+    checks.push_back(statedCheck(kOnboard, true, "The run equals the onboard run to the bit.", ""));
+    return;
   }
-  checks.push_back(
-      statedCheck(kOnboard, false, "The run differs from the onboard run. " + difference, kRemedy));
+  const bool passed = verdict == RunVerdict::kWithinLimits;
+  checks.push_back(statedCheck(kOnboard, passed,
+                               (passed ? "The run agrees with the onboard run within limits. "
+                                       : "The run differs from the onboard run. ") +
+                                   differenceText(*subject.onboard),
+                               "Compare both runs: the checked run is not the onboard run."));
 }
 
 std::int32_t lastInliers(const LocalizationTrace& run) {
@@ -249,11 +241,8 @@ std::int32_t lastInliers(const LocalizationTrace& run) {
 int iterationToOpen(const LocalizationTrace& run) {
   const int last = static_cast<int>(run.iterations.size()) - 1;
   if (run.converged()) return last;
-  for (int i = last; i >= 0; --i) {
-    const LocalizationStatus status = run.iterations[static_cast<std::size_t>(i)]->status;
-    if (status != LocalizationStatus::kRunning && status != LocalizationStatus::kConverged)
-      return i;
-  }
+  for (int i = last; i >= 0; --i)
+    if (!cameToPose(*run.iterations[static_cast<std::size_t>(i)])) return i;
   return last;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "sessions/text/plain_text.h"
 
@@ -11,24 +10,9 @@ namespace boresight::sessions {
 namespace {
 
 std::string numberText(double value, const std::string& unit) {
-  char text[40];
   const bool large = std::abs(value) >= 1000.0 && std::abs(value) < 1e6;  // not as 9e+03
-  std::snprintf(text, sizeof text, large ? "%.0f" : "%.3g", value);
-  return unit.empty() ? std::string(text) : text + (" " + unit);
-}
-
-std::string joined(bool passed, const std::string& found, const std::string& remedy) {
-  return passed || remedy.empty() ? found : found + " " + remedy;
-}
-
-const char* prefixOf(CheckState state) {
-  constexpr const char* kPrefixes[] = {"pass  ", "FAIL  ", "  -   "};
-  return kPrefixes[static_cast<std::size_t>(state)];
-}
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(text.size(), width), ' ');
-  return text;
+  const std::string text = large ? formatText("%.0f", value) : threeDigits(value);
+  return unit.empty() ? text : text + " " + unit;
 }
 
 }  // namespace
@@ -54,8 +38,7 @@ std::string figureText(const Check& check) {
 }
 
 int countOf(std::span<const Check> checks, CheckState state) {
-  return static_cast<int>(std::count_if(
-      checks.begin(), checks.end(), [state](const Check& check) { return check.state == state; }));
+  return static_cast<int>(std::ranges::count(checks, state, &Check::state));
 }
 
 bool allPassed(std::span<const Check> checks) {
@@ -76,11 +59,8 @@ Check measuredCheck(const CheckName& name, const std::string& unit, double figur
 
 Check statedCheck(const CheckName& name, bool passed, const std::string& found,
                   const std::string& remedy) {
-  Check check;
-  check.id = name.id;
-  check.title = name.title;
+  Check check = notAskedCheck(name, passed || remedy.empty() ? found : found + " " + remedy);
   check.state = passed ? CheckState::kPassed : CheckState::kFailed;
-  check.sentence = joined(passed, found, remedy);
   return check;
 }
 
@@ -92,13 +72,16 @@ Check notAskedCheck(const CheckName& name, const std::string& why) {
   return check;
 }
 
+void addNotAsked(const std::vector<CheckName>& names, const std::string& why,
+                 std::vector<Check>& checks) {
+  for (const CheckName& name : names) checks.push_back(notAskedCheck(name, why));
+}
+
 std::string sentenceNumber(double value) {
   const double size = std::abs(value);
   int decimals = 0;
   for (double unit = 100.0; size < unit && decimals < 4; unit /= 10.0) ++decimals;
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", std::min(decimals, 4), value);
-  return text;
+  return formatText("%.*f", decimals, value);
 }
 
 std::string checkCountsText(std::span<const Check> checks) {
@@ -108,14 +91,14 @@ std::string checkCountsText(std::span<const Check> checks) {
 }
 
 std::string checksText(std::span<const Check> checks, bool all_sentences) {
+  constexpr const char* kPrefixes[] = {"pass  ", "FAIL  ", "  -   "};
   std::size_t width = 0;
   for (const Check& check : checks) width = std::max(width, check.title.size());
   std::string text;
   for (const Check& check : checks) {
-    const std::string figure = figureText(check);
-    const bool plain = figure.empty();
-    text += prefixOf(check.state);
-    text += plain ? check.title : padded(check.title, width) + "  " + figure;
+    text += kPrefixes[static_cast<std::size_t>(check.state)] + check.title;
+    if (const std::string figure = figureText(check); !figure.empty())
+      text += std::string(width - check.title.size() + 2, ' ') + figure;
     text += "\n";
     if (all_sentences || check.state != CheckState::kPassed)
       text += plainLine("      " + check.sentence);

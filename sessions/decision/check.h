@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace boresight::sessions {
 
@@ -60,6 +61,10 @@ Check statedCheck(const CheckName& name, bool passed, const std::string& found,
 
 /// A check that is not applicable; `why` is a sentence.
 Check notAskedCheck(const CheckName& name, const std::string& why);
+
+/// Adds a check that is not applicable for each of these names.
+void addNotAsked(const std::vector<CheckName>& names, const std::string& why,
+                 std::vector<Check>& checks);
 
 /// A number for a sentence: three significant digits, no exponent where it can be avoided.
 std::string sentenceNumber(double value);

@@ -47,9 +47,7 @@ const std::vector<CheckPreset>& checkPresets() {
 
 const CheckPreset* findCheckPreset(const std::string& name) {
   const auto& all = checkPresets();
-  const auto found = std::find_if(all.begin(), all.end(), [&name](const CheckPreset& check_preset) {
-    return check_preset.name == name;
-  });
+  const auto found = std::ranges::find(all, name, &CheckPreset::name);
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -59,8 +57,8 @@ const CheckPreset& presetFor(const Requirement& requirement) {
                       item.rotation_deg.has_value(), item.projection_px.has_value()};
   };
   const auto& all = checkPresets();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const CheckPreset& check_preset) {
-    return names(check_preset.requirement) == names(requirement);
+  const auto found = std::ranges::find_if(all, [&](const CheckPreset& preset) {
+    return names(preset.requirement) == names(requirement);
   });
   return found == all.end() ? all.front() : *found;
 }
@@ -81,8 +79,7 @@ ReviewSettings withPreset(const ReviewSettings& settings, const std::string& pre
 ReviewSettings withLimits(const ReviewSettings& settings, const CheckLimits& limits) {
   ReviewSettings next = settings;
   next.limits = changedOptions(limits, checkLimits(settings.preset, {}));
-  std::sort(next.limits.begin(), next.limits.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::sort(next.limits, {}, &OptionList::value_type::first);
   return next;
 }
 

@@ -39,85 +39,63 @@ struct CheckLimits {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"check.last_correction_percent", "%", 0.0, 1000.0,
-                     "Largest last correction relative to the first one, in the image; a first "
-                     "correction below a pixel counts as a pixel."},
-          self.last_correction_percent);
-    visit(OptionInfo{"check.inlier_count", "", 0.0, 10000.0,
-                     "Least number of inliers of the last matching iteration."},
-          self.inlier_count);
-    visit(OptionInfo{"check.inlier_ratio_percent", "%", 0.0, 100.0,
-                     "Least share of inliers among the matches of that iteration."},
-          self.inlier_ratio_percent);
-    visit(OptionInfo{"check.inlier_spread_percent", "%", 0.0, 1000.0,
-                     "Least spread of the inliers in the image in their narrowest direction; 100: "
-                     "as wide as the station's edges."},
-          self.inlier_spread_percent);
-    visit(OptionInfo{"check.inlier_depth_percent", "%", 0.0, 1000.0,
-                     "Least spread of the inliers along the view axis, if the station has depth."},
-          self.inlier_depth_percent);
-    visit(OptionInfo{"check.border_percent", "%", 0.0, 100.0,
-                     "Largest share of matches on the border of their search window, beyond which "
-                     "the true position may lie."},
-          self.border_percent);
-    visit(
-        OptionInfo{
-            "check.peak_margin_percent", "%", 0.0, 100.0,
-            "Least median, over the inliers, of the margin between best and second-best score."},
-        self.peak_margin_percent);
-    visit(
-        OptionInfo{"check.sigmas", "", 0.0, 100.0,
-                   "Number of standard deviations of the pose that must fit into the requirement."},
-        self.sigmas);
-    visit(OptionInfo{"check.saturated_percent", "%", 0.0, 100.0,
-                     "Largest share of saturated pixels in the box that the station fills."},
-          self.saturated_percent);
-    visit(OptionInfo{"check.range_gray", "", 0.0, 255.0,
-                     "Least range of gray levels in the box that the station fills, from the 1st "
-                     "to the 99th percentile."},
-          self.range_gray);
-    visit(OptionInfo{"check.coverage_percent", "%", 0.0, 100.0,
-                     "Least share of the predicted edges that the image shows."},
-          self.coverage_percent);
-    visit(
-        OptionInfo{
-            "check.clutter_percent", "%", 0.0, 100.0,
-            "Largest share of the image's edges on the station that the pose does not predict."},
-        self.clutter_percent);
-    visit(OptionInfo{"check.evidence_percent", "%", 0.0, 1000.0,
-                     "Least evidence of the predicted edges beyond chance, relative to that of a "
-                     "right pose."},
-          self.evidence_percent);
-    visit(OptionInfo{"check.edge_width_px", "px", 0.5, 100.0,
-                     "Largest width of the image's edges in the least sharp direction."},
-          self.edge_width_px);
-    visit(OptionInfo{"check.fall_off_percent", "%", 0.0, 100.0,
-                     "Least share of the seen edges that is lost when the pose is displaced in any "
-                     "direction."},
-          self.fall_off_percent);
-    visit(OptionInfo{"check.focal_percent", "%", 0.0, 100.0,
-                     "Largest significant change of the focal length when estimated from the "
-                     "edges; without calibration_sigma also its largest uncertainty."},
-          self.focal_percent);
-    visit(OptionInfo{"check.centre_px", "px", 0.0, 10000.0,
-                     "Largest significant shift of the principal point when estimated from the "
-                     "edges; without calibration_sigma also its largest uncertainty."},
-          self.centre_px);
-    visit(OptionInfo{"check.scale_percent", "%", 0.0, 100.0,
-                     "Largest significant change of the mesh's scale when estimated from the rig's "
-                     "baseline."},
-          self.scale_percent);
-    visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
-                     "Largest distance to another pose (annotation, truth, second camera), "
-                     "relative to requirement and covariances."},
-          self.agreement_percent);
-    visit(OptionInfo{"check.convergence_percent", "%", 0.0, 100.0,
-                     "Least share of further seeds that converge to the same pose."},
-          self.convergence_percent);
-    visit(OptionInfo{"check.competing_percent", "%", 0.0, 1000.0,
-                     "Largest edge coverage of a competing pose or a mirrored station, relative to "
-                     "that of this pose."},
-          self.competing_percent);
+    const auto limit = [&visit](auto& field, const char* name, const char* unit, double minimum,
+                                double maximum, const char* help) {
+      visit(OptionInfo{name, unit, minimum, maximum, help}, field);
+    };
+    limit(self.last_correction_percent, "check.last_correction_percent", "%", 0.0, 1000.0,
+          "Largest last correction relative to the first one, in the image; a first "
+          "correction below a pixel counts as a pixel.");
+    limit(self.inlier_count, "check.inlier_count", "", 0.0, 10000.0,
+          "Least number of inliers of the last matching iteration.");
+    limit(self.inlier_ratio_percent, "check.inlier_ratio_percent", "%", 0.0, 100.0,
+          "Least share of inliers among the matches of that iteration.");
+    limit(self.inlier_spread_percent, "check.inlier_spread_percent", "%", 0.0, 1000.0,
+          "Least spread of the inliers in the image in their narrowest direction; 100: "
+          "as wide as the station's edges.");
+    limit(self.inlier_depth_percent, "check.inlier_depth_percent", "%", 0.0, 1000.0,
+          "Least spread of the inliers along the view axis, if the station has depth.");
+    limit(self.border_percent, "check.border_percent", "%", 0.0, 100.0,
+          "Largest share of matches on the border of their search window, beyond which "
+          "the true position may lie.");
+    limit(self.peak_margin_percent, "check.peak_margin_percent", "%", 0.0, 100.0,
+          "Least median, over the inliers, of the margin between best and second-best score.");
+    limit(self.sigmas, "check.sigmas", "", 0.0, 100.0,
+          "Number of standard deviations of the pose that must fit into the requirement.");
+    limit(self.saturated_percent, "check.saturated_percent", "%", 0.0, 100.0,
+          "Largest share of saturated pixels in the box that the station fills.");
+    limit(self.range_gray, "check.range_gray", "", 0.0, 255.0,
+          "Least range of gray levels in the box that the station fills, from the 1st "
+          "to the 99th percentile.");
+    limit(self.coverage_percent, "check.coverage_percent", "%", 0.0, 100.0,
+          "Least share of the predicted edges that the image shows.");
+    limit(self.clutter_percent, "check.clutter_percent", "%", 0.0, 100.0,
+          "Largest share of the image's edges on the station that the pose does not predict.");
+    limit(self.evidence_percent, "check.evidence_percent", "%", 0.0, 1000.0,
+          "Least evidence of the predicted edges beyond chance, relative to that of a "
+          "right pose.");
+    limit(self.edge_width_px, "check.edge_width_px", "px", 0.5, 100.0,
+          "Largest width of the image's edges in the least sharp direction.");
+    limit(self.fall_off_percent, "check.fall_off_percent", "%", 0.0, 100.0,
+          "Least share of the seen edges that is lost when the pose is displaced in any "
+          "direction.");
+    limit(self.focal_percent, "check.focal_percent", "%", 0.0, 100.0,
+          "Largest significant change of the focal length when estimated from the "
+          "edges; without calibration_sigma also its largest uncertainty.");
+    limit(self.centre_px, "check.centre_px", "px", 0.0, 10000.0,
+          "Largest significant shift of the principal point when estimated from the "
+          "edges; without calibration_sigma also its largest uncertainty.");
+    limit(self.scale_percent, "check.scale_percent", "%", 0.0, 100.0,
+          "Largest significant change of the mesh's scale when estimated from the rig's "
+          "baseline.");
+    limit(self.agreement_percent, "check.agreement_percent", "%", 0.0, 10000.0,
+          "Largest distance to another pose (annotation, truth, second camera), "
+          "relative to requirement and covariances.");
+    limit(self.convergence_percent, "check.convergence_percent", "%", 0.0, 100.0,
+          "Least share of further seeds that converge to the same pose.");
+    limit(self.competing_percent, "check.competing_percent", "%", 0.0, 1000.0,
+          "Largest edge coverage of a competing pose or a mirrored station, relative to "
+          "that of this pose.");
   }
 };
 

@@ -41,8 +41,7 @@ struct Approval {
 /// Covariance of a pose by its causes, which are independent: over (rotation rad, translation m),
 /// left perturbation, camera frame.
 struct PoseCovariance {
-  Matrix6d picture =
-      Matrix6d::Zero();  ///< of the image or the annotations alone; zero: not known
+  Matrix6d picture = Matrix6d::Zero();  ///< of the image or the annotations alone; zero: not known
   Matrix6d mesh_scale = Matrix6d::Zero();   ///< of the mesh's scale, which no single image shows
   Matrix6d calibration = Matrix6d::Zero();  ///< of focal length and principal point
 
@@ -77,8 +76,7 @@ struct Decision {
   std::map<std::string, std::string> input_fingerprint = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
-  int convergence_seeds =
-      0;  ///< further seeds of the convergence test, to repeat it; 0: none
+  int convergence_seeds = 0;  ///< further seeds of the convergence test, to repeat it; 0: none
 
   bool operator==(const Decision&) const = default;
 };
@@ -86,8 +84,8 @@ struct Decision {
 /// Settings by which the poses of a session are judged.
 struct ReviewSettings {
   std::string preset = "sample_transfer";  ///< of limits (sessions/decision/check_limits.h)
-  OptionList limits;  ///< differences from the preset, in alphabetical order
-  bool second_person = false;  ///< a second person must approve a validation
+  OptionList limits;                       ///< differences from the preset, in alphabetical order
+  bool second_person = false;              ///< a second person must approve a validation
 
   bool operator==(const ReviewSettings&) const = default;
 };

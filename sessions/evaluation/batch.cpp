@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <future>
 #include <iterator>
@@ -21,6 +20,7 @@
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -36,9 +36,9 @@ auto shared(Load&& load) {
 }
 
 struct StationScene {
+  const Station* station;  ///< that the mesh is of
   SceneMesh scene;
   std::vector<Eigen::Vector3f> matched_vertices;
-  Symmetries symmetries;
 };
 
 struct CaseImage {
@@ -46,12 +46,9 @@ struct CaseImage {
   std::optional<IgnoreMask> ignore;
 };
 
-/// A case and what its runs share.
+/// What the runs of a case share.
 struct CaseWork {
-  const Case* input = nullptr;
-  std::int64_t dataset_index = 0;
   Shared<StationScene> scene;
-  const Station* mesh_station = nullptr;
   Shared<CaseImage> image;
   std::atomic<int> runs_left{0};
 };
@@ -72,7 +69,7 @@ void requireNames(const Dataset& dataset, const BatchOptions& options) {
       throw InputError(dataset.file, "stations", "there is no station \"" + id + "\"");
 }
 
-/// What the scene of a case is made of; cases with the same share it.
+/// Inputs of a scene; cases with the same inputs share it.
 struct SceneInputs {
   std::string station;
   std::vector<PartSource> parts;  ///< placed
@@ -97,12 +94,10 @@ SceneInputs sceneInputs(const Dataset& dataset, const Case& dataset_case,
 
 StationScene loadScene(const SceneInputs& inputs, const Station& station,
                        const std::optional<MirrorAxis>& mirror) {
-  StationScene loaded;
-  loaded.scene = readScene(inputs.parts);
-  if (mirror) loaded.scene = mirrored(std::move(loaded.scene), *mirror);
-  loaded.matched_vertices = matchedVertices(loaded.scene.view());
-  loaded.symmetries = station.symmetries;
-  return loaded;
+  SceneMesh scene = readScene(inputs.parts);
+  if (mirror) scene = mirrored(std::move(scene), *mirror);
+  std::vector<Eigen::Vector3f> vertices = matchedVertices(scene.view());
+  return {&station, std::move(scene), std::move(vertices)};
 }
 
 std::optional<PoseError> errorOf(const Case& dataset_case, const Camera& camera,
@@ -110,7 +105,7 @@ std::optional<PoseError> errorOf(const Case& dataset_case, const Camera& camera,
   if (!dataset_case.truth_camera_from_station) return std::nullopt;
   return wholeError(camera, *dataset_case.truth_camera_from_station, estimate,
                     dataset_case.camera_from_end_effector,
-                    {scene.matched_vertices, &scene.symmetries});
+                    {scene.matched_vertices, &scene.station->symmetries});
 }
 
 /// The share of the requirement that the error takes up. Without the costly errors of BOP, unless
@@ -120,7 +115,7 @@ std::optional<double> shareOf(const Case& dataset_case, const Camera& camera, co
   if (!dataset_case.truth_camera_from_station || !dataset_case.requirement) return std::nullopt;
   const Pose& truth = *dataset_case.truth_camera_from_station;
   PoseError error;
-  if (scene.symmetries.empty()) {
+  if (scene.station->symmetries.empty()) {
     error = poseError(truth, estimate, dataset_case.camera_from_end_effector);
     error.projection_px = projectionError(camera, truth, estimate, scene.matched_vertices);
   } else {
@@ -137,8 +132,8 @@ class Batch {
 
  private:
   struct Item {
+    PlannedRun run;
     CaseWork* work = nullptr;
-    int reseed = 0;
   };
 
   void workUntilDone(const std::stop_token& stop);
@@ -163,28 +158,22 @@ Batch::Batch(const Dataset& dataset, const BatchOptions& options,
     : dataset_(dataset), options_(options), progress_(progress), methods_(options.method_setup) {
   std::vector<std::pair<SceneInputs, Shared<StationScene>>> scenes;
   for (const PlannedRun& planned : plan) {
-    if (cases_.empty() || cases_.back()->input != planned.input) {
-      auto work = std::make_unique<CaseWork>();
-      work->input = planned.input;
-      work->dataset_index = planned.dataset_index;
+    if (items_.empty() || items_.back().run.input != planned.input) {
+      CaseWork& work = *cases_.emplace_back(std::make_unique<CaseWork>());
       const SceneInputs inputs = sceneInputs(dataset, *planned.input, options.mesh_of);
-      work->mesh_station = &dataset.stations.at(inputs.station);
-      auto known = std::find_if(scenes.begin(), scenes.end(),
-                                [&](const auto& scene) { return scene.first == inputs; });
-      if (known == scenes.end()) {
-        scenes.emplace_back(inputs, shared([this, inputs, station = work->mesh_station] {
-                              return loadScene(inputs, *station, options_.mirror);
-                            }));
-        known = std::prev(scenes.end());
-      }
-      work->scene = known->second;
-      work->image = shared([this, &one = *planned.input] {
+      auto known = std::ranges::find(scenes, inputs, &decltype(scenes)::value_type::first);
+      if (known == scenes.end())
+        known = scenes.emplace(known, inputs, shared([this, inputs] {
+                                 return loadScene(inputs, dataset_.stations.at(inputs.station),
+                                                  options_.mirror);
+                               }));
+      work.scene = known->second;
+      work.image = shared([this, &one = *planned.input] {
         return CaseImage{readCaseImage(dataset_, one), readCaseMask(dataset_, one)};
       });
-      cases_.push_back(std::move(work));
     }
     ++cases_.back()->runs_left;
-    items_.push_back({cases_.back().get(), planned.reseed});
+    items_.push_back({planned, cases_.back().get()});
   }
 }
 
@@ -227,11 +216,11 @@ void Batch::finish(const RunResult& result) {
 }
 
 RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
-  const Case& dataset_case = *item.work->input;
+  const Case& dataset_case = *item.run.input;
   RunResult result;
   result.case_id = dataset_case.id;
-  result.dataset_index = item.work->dataset_index;
-  result.reseed = item.reseed;
+  result.dataset_index = item.run.dataset_index;
+  result.reseed = item.run.reseed;
   result.station = dataset_case.station;
   result.method = options_.method;
   result.tags = dataset_case.tags;
@@ -253,7 +242,7 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
 }
 
 void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& result) {
-  const Case& dataset_case = *item.work->input;
+  const Case& dataset_case = *item.run.input;
   if (!dataset_case.uncertainty)
     throw InputError(dataset_.file, "cases." + dataset_case.id + ".uncertainty",
                      "neither the case nor its station states one");
@@ -263,16 +252,16 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   const CaseImage& image = shared_image.get();
 
   Pose seed = dataset_case.seed_camera_from_station;
-  if (item.reseed > 0) {
-    const Vector6d offset =
-        drawOffset(*dataset_case.uncertainty, options_.reseed_scale, dataset_case.id, item.reseed);
+  if (item.run.reseed > 0) {
+    const Vector6d offset = drawOffset(*dataset_case.uncertainty, options_.reseed_scale,
+                                       dataset_case.id, item.run.reseed);
     seed =
         seedForOffset(*dataset_case.truth_camera_from_station, offset,
                       dataset_case.uncertainty->pivot, matchedBounds(scene.scene.view()).centre());
   }
   const BitImage ignore = image.ignore ? image.ignore->view() : BitImage{};
   const LocalizationProblem problem = problemOf(
-      image.image, image.ignore ? &ignore : nullptr, dataset_.cameras.at(dataset_case.camera),
+      image.image, image.ignore ? &ignore : nullptr, dataset_.cameraOf(dataset_case),
       scene.scene.view(), seed, *dataset_case.uncertainty, dataset_case.camera_from_end_effector);
   result.camera_from_station_seed = problem.camera_from_station_seed;
   result.camera_from_station = problem.camera_from_station_seed;
@@ -281,7 +270,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
 
   result.image_quality = imageQualityOf(problem);
   const LocalizerOptions options =
-      withFeatureSize(options_.localizer, item.work->mesh_station->feature_size_m);
+      withFeatureSize(options_.localizer, scene.station->feature_size_m);
   result.message = seedConcern(problem.camera, problem.mesh, problem.camera_from_station_seed);
   if (result.message.empty()) {
     RunSettings settings;
@@ -348,36 +337,14 @@ void runPlanned(const Dataset& dataset, const BatchOptions& options,
   Batch(dataset, options, plan, progress).run(stop);
 }
 
-std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
-                                const BatchProgress& progress, const std::stop_token& stop) {
-  std::vector<RunResult> results;
-  runPlanned(
-      dataset, options, planBatch(dataset, options),
-      [&](std::size_t done, std::size_t total, const RunResult& result) {
-        results.push_back(result);
-        if (progress) progress(done, total, result);
-      },
-      stop);
-  std::sort(results.begin(), results.end(), [](const RunResult& a, const RunResult& b) {
-    return std::pair(a.dataset_index, a.reseed) < std::pair(b.dataset_index, b.reseed);
-  });
-  return results;
-}
-
 std::string durationText(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return "?";
   if (seconds < 59.5) return fixedText(seconds, 0) + " s";
   const auto minutes = static_cast<long long>(std::llround(seconds / 60.0));
   if (minutes < 60) return std::to_string(minutes) + " min";
-  char text[48];
-  if (minutes < 24 * 60) {
-    std::snprintf(text, sizeof text, "%lld h %02lld min", minutes / 60, minutes % 60);
-    return text;
-  }
+  if (minutes < 24 * 60) return formatText("%lld h %02lld min", minutes / 60, minutes % 60);
   const long long hours = std::llround(seconds / 3600.0);
-  std::snprintf(text, sizeof text, "%lld %s %lld h", hours / 24, hours < 48 ? "day" : "days",
-                hours % 24);
-  return text;
+  return formatText("%lld %s %lld h", hours / 24, hours < 48 ? "day" : "days", hours % 24);
 }
 
 std::string batchProgressText(std::size_t done, std::size_t total, std::size_t completed,

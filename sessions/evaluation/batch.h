@@ -68,11 +68,6 @@ void runPlanned(const Dataset& dataset, const BatchOptions& options,
                 const std::vector<PlannedRun>& plan, const BatchProgress& progress,
                 const std::stop_token& stop = {});
 
-/// Plans and runs. The results are in the order of the plan; after a stop, runs that were not done
-/// are missing.
-std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
-                                const BatchProgress& progress, const std::stop_token& stop = {});
-
 /// "12 s", "4 min", "2 h 05 min", "3 days 4 h"; "?" when unknown.
 std::string durationText(double seconds);
 

@@ -56,10 +56,10 @@ std::string processorName() {
 
 MethodFacts methodFacts(const std::string& method, const std::string& profile,
                         const LocalizerOptions& options) {
+  const LocalizerOptions defaults = profileOptions(profile).value_or(defaultProfile());
   MethodFacts facts;
   facts.method = method;
   facts.profile = profile;
-  const LocalizerOptions defaults = profileOptions(profile).value_or(defaultProfile());
   facts.options = toJson(changedOptions(options, defaults)).dump();
   facts.options_sha256 = optionsDigest(options);
   return facts;
@@ -74,12 +74,8 @@ void addMethodOptions(const OptionList& changed, MethodFacts& facts) {
 }
 
 DatasetFacts datasetFacts(const Dataset& dataset) {
-  DatasetFacts facts;
-  facts.dataset = std::filesystem::absolute(dataset.file).lexically_normal().string();
-  facts.dataset_sha256 = dataset.sha256;
-  facts.cases = static_cast<std::int64_t>(dataset.cases.size());
-  facts.version = kVersion;
-  return facts;
+  return {std::filesystem::absolute(dataset.file).lexically_normal().string(), dataset.sha256,
+          std::ssize(dataset.cases), kVersion};
 }
 
 std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given) {

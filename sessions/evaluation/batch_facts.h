@@ -35,7 +35,6 @@ struct MethodFacts {
 
 /// One process that ran cases into a results file.
 struct BatchRun {
-  std::int64_t id = 0;
   std::string began;  ///< UTC
   std::string ended;  ///< UTC; empty while it runs, and when it was killed
   std::string version;

@@ -41,12 +41,6 @@ bool isImage(const fs::path& file) {
          extension == ".tif" || extension == ".tiff";
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// Sensors whose files lie in a scene, for messages.
 std::string sensorsOf(const fs::path& scene) {
   const std::string start = "scene_camera_";
@@ -55,13 +49,7 @@ std::string sensorsOf(const fs::path& scene) {
     const std::string stem = file.stem().string();
     if (stem.rfind(start, 0) == 0) names.push_back(stem.substr(start.size()));
   }
-  return listed(names);
-}
-
-/// "000007", as BOP names scenes, images and objects.
-std::string bopNumber(int number) {
-  const std::string digits = std::to_string(number);
-  return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
+  return joined(names);
 }
 
 /// `scene_camera`, `scene_gt` ... of a scene: with the sensor's name where there is one.
@@ -103,7 +91,7 @@ fs::path bopSplitFolder(const fs::path& root, const std::string& split, const st
   if (names.empty())
     throw InputError(root, "",
                      "is not a BOP dataset: no folder in it has scenes with scene_camera.json");
-  throw InputError(root, "", "has several splits, choose one with --split: " + listed(names));
+  throw InputError(root, "", "has several splits, choose one with --split: " + joined(names));
 }
 
 /// The images of a scene by their numbers: of the folder rgb or gray (with several sensors: of the
@@ -120,7 +108,7 @@ std::map<int, fs::path> bopImages(const fs::path& scene, const std::string& sens
         images.emplace(*number, file);
     return images;
   }
-  throw InputError(scene, "", "has no folder of images (" + listed(names) + ")");
+  throw InputError(scene, "", "has no folder of images (" + joined(names) + ")");
 }
 
 /// The folder with models_info.json: models, models_cad, models_eval, or another one that begins
@@ -156,6 +144,7 @@ constexpr double kLeastVisible = 0.1;  ///< visible share of the challenge's obj
 
 /// An entry of models_info.json.
 struct Model {
+  std::string name;
   Station station;
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
 };
@@ -166,10 +155,10 @@ std::map<int, Model> readModels(const fs::path& folder) {
   for (const auto& [key, entry] : document.root().members()) {
     const int number = bopImageId(key, entry);
     Model model;
-    model.station.id = "obj_" + bopNumber(number);
-    model.station.parts.resize(1);
-    model.station.parts[0].mesh = folder / (model.station.id + ".ply");
-    model.station.parts[0].mesh_unit = "mm";
+    model.name = "obj_" + bopNumber(number);
+    PartSource& part = model.station.parts.emplace_back();
+    part.mesh = folder / (model.name + ".ply");
+    part.mesh_unit = "mm";
     model.station.symmetries = readBopSymmetries(entry);
     int i = 0;
     for (const char* axis : {"x", "y", "z"})
@@ -181,7 +170,7 @@ std::map<int, Model> readModels(const fs::path& folder) {
   return models;
 }
 
-/// Visible share of each instance, by image; empty when the scene does not say.
+/// Visible share of each instance, by image; empty when the scene does not state it.
 std::map<int, std::vector<double>> readVisibility(const fs::path& file) {
   std::map<int, std::vector<double>> shares;
   if (!fs::exists(file)) return shares;
@@ -194,22 +183,20 @@ std::map<int, std::vector<double>> readVisibility(const fs::path& file) {
   return shares;
 }
 
-/// Of what matters to the runs: which cases there are, their seeds, truths and cameras.
+/// Hash of the inputs of runs: ids of cases, seeds, truths and cameras.
 std::string digestOf(const Dataset& dataset) {
   std::string text;
   const auto add = [&text](const Pose& pose) {
     const Eigen::Quaterniond& q = pose.rotation;
     const Eigen::Vector3d& t = pose.translation_m;
-    for (const double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()})
-      text += " " + numberText(v);
+    text += " " + numbersText({q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()});
   };
   for (const Case& dataset_case : dataset.cases) {
     text += dataset_case.id;
     add(dataset_case.seed_camera_from_station);
     add(*dataset_case.truth_camera_from_station);
-    const Camera& camera = dataset.cameras.at(dataset_case.camera);
-    for (const double v : {camera.fx, camera.fy, camera.cx, camera.cy}) text += " " + numberText(v);
-    text += "\n";
+    const Camera& camera = dataset.cameraOf(dataset_case);
+    text += " " + numbersText({camera.fx, camera.fy, camera.cx, camera.cy}) + "\n";
   }
   return sha256Text(text);
 }
@@ -223,30 +210,30 @@ class Reader {
 
  private:
   struct Instance {
-    const BopObject* object = nullptr;
+    BopObject object;
     double visible = 1.0;
   };
 
   void readScene(int scene_id, const fs::path& folder);
   std::vector<Instance> chosen(int scene_id, int image_id, std::vector<Instance> instances) const;
-  void addCase(int scene_id, const Instance& instance, int repetition, const fs::path& image);
+  void addCase(int scene_id, const BopObject& object, int repetition, const fs::path& image);
   std::string cameraOf(const Camera& camera);
   bool wants(const std::vector<int>& list, int number) const {
     return list.empty() || std::find(list.begin(), list.end(), number) != list.end();
   }
-  void requireKnown() const;
 
   fs::path root_;
   const BopSelection& selection_;
   std::map<int, Model> models_;
   std::optional<BopTargets> targets_;
   Dataset dataset_;
-  std::vector<std::pair<std::string, Camera>> cameras_;
 };
 
 Dataset Reader::read() {
   dataset_.file = root_;
-  requireKnown();
+  for (const int object : selection_.objects)
+    if (!models_.contains(object))
+      throw InputError(root_, "models_info.json", "there is no object " + std::to_string(object));
   const fs::path split = bopSplitFolder(root_, selection_.split, selection_.sensor);
   if (split.filename() == "test" && !selection_.every_instance) targets_ = bopTargets(root_);
   const std::map<int, fs::path> scenes = bopScenes(split, selection_.sensor);
@@ -255,15 +242,8 @@ Dataset Reader::read() {
   for (const auto& [id, folder] : scenes)
     if (wants(selection_.scenes, id)) readScene(id, folder);
   if (dataset_.cases.empty()) throw InputError(split, "", "the selection is empty");
-  for (const auto& [id, camera] : cameras_) dataset_.cameras.emplace(id, camera);
   dataset_.sha256 = digestOf(dataset_);
   return std::move(dataset_);
-}
-
-void Reader::requireKnown() const {
-  for (const int object : selection_.objects)
-    if (!models_.contains(object))
-      throw InputError(root_, "models_info.json", "there is no object " + std::to_string(object));
 }
 
 void Reader::readScene(int scene_id, const fs::path& folder) {
@@ -279,23 +259,22 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
     auto& list = instances[object.image.id];
     const auto shares = visible.find(object.image.id);
     const bool known = shares != visible.end() && list.size() < shares->second.size();
-    list.push_back({&object, known ? shares->second[list.size()] : 1.0});
+    list.push_back({object, known ? shares->second[list.size()] : 1.0});
   }
   std::optional<ImageHeader> size;  // BOP does not state it; a scene is taken by one camera
   for (const auto& [image_id, list] : instances) {
-    const std::vector<Instance> wanted = chosen(scene_id, image_id, list);
+    std::vector<Instance> wanted = chosen(scene_id, image_id, list);
     if (wanted.empty()) continue;
     const auto image = images.find(image_id);
     if (image == images.end()) throw InputError(folder, "", "has no image " + bopNumber(image_id));
     if (!size)
       size = readImageHeader(image->second, readFileBytes(image->second, kMaxImageFileBytes));
     std::map<int, int> repetitions;
-    for (Instance instance : wanted) {
-      BopObject sized = *instance.object;
-      sized.image.camera.width = size->width;
-      sized.image.camera.height = size->height;
-      instance.object = &sized;
-      addCase(scene_id, instance, ++repetitions[sized.object_id], image->second);
+    for (Instance& instance : wanted) {
+      BopObject& object = instance.object;
+      object.image.camera.width = size->width;
+      object.image.camera.height = size->height;
+      addCase(scene_id, object, ++repetitions[object.object_id], image->second);
     }
   }
 }
@@ -303,7 +282,7 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
 std::vector<Reader::Instance> Reader::chosen(int scene_id, int image_id,
                                              std::vector<Instance> instances) const {
   std::erase_if(instances, [this](const Instance& instance) {
-    return !wants(selection_.objects, instance.object->object_id);
+    return !wants(selection_.objects, instance.object.object_id);
   });
   if (selection_.every_instance) return instances;
   if (!targets_) {
@@ -316,7 +295,7 @@ std::vector<Reader::Instance> Reader::chosen(int scene_id, int image_id,
                    [](const Instance& a, const Instance& b) { return a.visible > b.visible; });
   std::map<int, int> taken;
   std::erase_if(instances, [&](const Instance& instance) {
-    const int object = instance.object->object_id;
+    const int object = instance.object.object_id;
     const auto target = targets_->find({scene_id, image_id, object});
     return target == targets_->end() || ++taken[object] > target->second;
   });
@@ -324,15 +303,14 @@ std::vector<Reader::Instance> Reader::chosen(int scene_id, int image_id,
 }
 
 std::string Reader::cameraOf(const Camera& camera) {
-  for (const auto& [id, known] : cameras_)
-    if (known == camera) return id;
-  cameras_.emplace_back("camera_" + bopNumber(static_cast<int>(cameras_.size()) + 1), camera);
-  return cameras_.back().first;
+  for (const auto& [id, known] : dataset_.cameras)
+    if (known.camera == camera) return id;
+  const std::string id = "camera_" + bopNumber(static_cast<int>(dataset_.cameras.size()) + 1);
+  dataset_.cameras.emplace(id, CameraFile{camera});
+  return id;
 }
 
-void Reader::addCase(int scene_id, const Instance& instance, int repetition,
-                     const fs::path& image) {
-  const BopObject& object = *instance.object;
+void Reader::addCase(int scene_id, const BopObject& object, int repetition, const fs::path& image) {
   const auto model = models_.find(object.object_id);
   if (model == models_.end())
     throw InputError(root_, "models_info.json",
@@ -341,12 +319,12 @@ void Reader::addCase(int scene_id, const Instance& instance, int repetition,
   Camera camera = object.image.camera;
   if (prepareCamera(camera) != Status::kOk)
     throw InputError(image, "scene_camera.json", "cam_K cannot be a camera's");
-  dataset_.stations.emplace(model->second.station.id, model->second.station);
+  dataset_.stations.emplace(model->second.name, model->second.station);
   Case dataset_case;
   dataset_case.id = bopNumber(scene_id) + "-" + bopNumber(object.image.id) + "-" +
                     bopNumber(object.object_id) +
                     (repetition > 1 ? "-" + std::to_string(repetition) : "");
-  dataset_case.station = model->second.station.id;
+  dataset_case.station = model->second.name;
   dataset_case.camera = cameraOf(camera);
   dataset_case.image = image;
   dataset_case.uncertainty = selection_.uncertainty;
@@ -361,12 +339,8 @@ void Reader::addCase(int scene_id, const Instance& instance, int repetition,
 
 }  // namespace
 
-Dataset readBopDataset(const fs::path& folder, const BopSelection& selection) {
-  return Reader(folder, selection).read();
-}
-
 Dataset openDataset(const fs::path& path, const BopSelection& selection) {
-  return fs::is_directory(path) ? readBopDataset(path, selection) : readDataset(path);
+  return fs::is_directory(path) ? Reader(path, selection).read() : readDataset(path);
 }
 
 std::vector<BopResult> bopResults(const Dataset& dataset, std::span<const RunResult> runs) {

@@ -27,15 +27,12 @@ struct BopSelection {
                                      Eigen::Vector3d::Constant(10.0), UncertaintyPivot::kStation};
 };
 
-/// Reads a BOP dataset (bop_toolkit, bop_datasets_format.md) as a Dataset: an object is a station
-/// (`obj_000001`, mesh in mm, its symmetries), an instance in an image is a case
-/// (`SCENE-IMAGE-OBJECT[-n]`). Of the split `test`, the targets of the challenge
-/// (test_targets_bop19.json); without such a list, instances that are at least 10 % visible
-/// (scene_gt_info.json). InputError: a missing split, scene, object, image or model, several splits
-/// without a choice, a scene without truth, a camera that is not a pinhole.
-Dataset readBopDataset(const std::filesystem::path& folder, const BopSelection& selection = {});
-
-/// Reads a folder as a BOP dataset, other paths as dataset.json (without the selection).
+/// Reads a file as dataset.json (without the selection), a folder as a BOP dataset (bop_toolkit,
+/// bop_datasets_format.md): an object is a station (`obj_000001`, mesh in mm, its symmetries), an
+/// instance in an image is a case (`SCENE-IMAGE-OBJECT[-n]`). Of the split `test`, the targets of
+/// the challenge are read (test_targets_bop19.json); without such a list, instances that are at
+/// least 10 % visible (scene_gt_info.json). InputError: a missing split, scene, object, image or
+/// model, several splits without a choice, a scene without truth, a camera that is not a pinhole.
 Dataset openDataset(const std::filesystem::path& path, const BopSelection& selection = {});
 
 /// The completed runs of one method on a BOP dataset as lines of a results file: the score is the

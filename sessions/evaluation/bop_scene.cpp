@@ -22,8 +22,6 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr double kMaxRotationDeviation = 1e-4;
-
 ordered_json cameraEntry(const Camera& camera) {
   ordered_json json;
   json["cam_K"] = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
@@ -31,18 +29,18 @@ ordered_json cameraEntry(const Camera& camera) {
   return json;
 }
 
+/// The rotation row by row.
+std::vector<double> rotationOf(const Pose& pose) {
+  const Eigen::Matrix3d columns = pose.matrix().transpose();
+  return {columns.data(), columns.data() + columns.size()};
+}
+
+Eigen::Vector3d translationOf_mm(const Pose& pose) { return kMillimetres * pose.translation_m; }
+
 ordered_json objectEntry(const PosedImage& image, int object_id) {
-  const Pose& camera_from_station = image.camera_from_station;
-  ordered_json rotation = ordered_json::array();
-  ordered_json translation = ordered_json::array();
-  const Eigen::Matrix3d matrix = camera_from_station.matrix();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) rotation.push_back(matrix(row, column));
-    translation.push_back(kMillimetres * camera_from_station.translation_m[row]);
-  }
   ordered_json json;
-  json["cam_R_m2c"] = rotation;
-  json["cam_t_m2c"] = translation;
+  json["cam_R_m2c"] = rotationOf(image.camera_from_station);
+  json["cam_t_m2c"] = toJson(translationOf_mm(image.camera_from_station));
   json["obj_id"] = object_id;
   if (!image.remark.empty()) json["remark"] = image.remark;  // readers ignore unknown members
   return json;
@@ -70,8 +68,7 @@ Pose readPoseEntry(const JsonReader& entry) {
   Pose pose;
   double deviation = 0.0;
   const Eigen::Vector3d translation_m = entry.at("cam_t_m2c").vector3() / kMillimetres;
-  if (poseFromMatrix(rotation, translation_m, pose, deviation) != Status::kOk ||
-      deviation > kMaxRotationDeviation)
+  if (poseFromMatrix(rotation, translation_m, pose, deviation) != Status::kOk)
     entry.failMember("cam_R_m2c", "is not a rotation");
   return pose;
 }
@@ -81,11 +78,10 @@ void requireWritableAsBop(const std::filesystem::path& folder, const PosedImage&
   const std::string name = "image " + std::to_string(image.id);
   if (image.id < 0 || !ids.insert(image.id).second)
     throw OutputError(folder / "scene_gt.json", name + " needs a unique id");
-  const bool distorted = image.camera.model != CameraModel::kPinhole &&
-                         std::any_of(image.camera.distortion.begin(), image.camera.distortion.end(),
-                                     [](double value) { return value != 0.0; });
-  if (distorted || image.camera.model == CameraModel::kKannalaBrandt ||
-      isCahvFamily(image.camera.model))
+  const Camera& camera = image.camera;
+  const bool undistorted =
+      camera.model == CameraModel::kBrownConrady && camera.distortion == Camera().distortion;
+  if (camera.model != CameraModel::kPinhole && !undistorted)
     throw OutputError(folder / "scene_camera.json",
                       name +
                           ": its camera distorts, which the format does not know; undistort "
@@ -108,15 +104,11 @@ void requireWritable(const fs::path& file, const BopResult& result,
 }
 
 std::string lineOf(const BopResult& result) {
-  std::string line = std::to_string(result.scene_id) + "," + std::to_string(result.image_id) + "," +
-                     std::to_string(result.object_id) + "," + numberText(result.score) + ",";
-  const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
-  for (int i = 0; i < 9; ++i) line += (i == 0 ? "" : " ") + numberText(rotation(i / 3, i % 3));
-  line += ",";
-  for (int i = 0; i < 3; ++i)
-    line += (i == 0 ? "" : " ") +
-            numberText(kMillimetres * result.camera_from_station.translation_m[i]);
-  return line + "," + numberText(result.seconds) + "\n";
+  return std::to_string(result.scene_id) + "," + std::to_string(result.image_id) + "," +
+         std::to_string(result.object_id) + "," + numberText(result.score) + "," +
+         numbersText(rotationOf(result.camera_from_station)) + "," +
+         numbersText(translationOf_mm(result.camera_from_station)) + "," +
+         numberText(result.seconds) + "\n";
 }
 
 }  // namespace
@@ -134,6 +126,8 @@ void writeBopScene(const std::filesystem::path& folder, std::span<const BopObjec
   writeJsonFile(folder / "scene_camera.json", cameras);
   writeJsonFile(folder / "scene_gt.json", truth);
 }
+
+std::string bopNumber(int number) { return formatText("%06d", number); }
 
 int bopImageId(const std::string& key, const JsonReader& entry) {
   const auto id = numberIn<int>(key);

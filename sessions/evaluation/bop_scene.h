@@ -30,6 +30,9 @@ std::vector<BopObject> readBopScene(const std::filesystem::path& folder);
 std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
                                     const std::filesystem::path& truth_file);
 
+/// "000007", as BOP names scenes, images and objects.
+std::string bopNumber(int number);
+
 /// The image id in a key of such a file. InputError.
 int bopImageId(const std::string& key, const JsonReader& entry);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/base/math.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
@@ -29,13 +29,6 @@ Eigen::Matrix<double, 3, 6> displacementOf(const Eigen::Vector3d& p) {
       -p.z(), 0.0, p.x(), 0.0, 1.0, 0.0,              //
       p.y(), -p.x(), 0.0, 0.0, 0.0, 1.0;
   return displacement;
-}
-
-/// Three significant digits.
-std::string shortNumber(double value) {
-  char text[32];
-  (void)std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 }  // namespace
@@ -185,8 +178,8 @@ std::string sigmaExcessText(const Matrix6d& covariance,
                         const std::string& where) {
     if (!allowed || !(value > most * *allowed)) return;
     most = value / *allowed;
-    text = shortNumber(value) + unit + where + ", " + shortNumber(most) + " times the " +
-           shortNumber(*allowed) + unit + " required";
+    text = threeDigits(value) + unit + where + ", " + threeDigits(most) + " times the " +
+           threeDigits(*allowed) + unit + " required";
   };
   note(sigma->normal_mm, requirement.normal_mm, " mm", " along the view axis" + place);
   note(sigma->lateral_mm, requirement.lateral_mm, " mm", " across the view axis" + place);

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "sessions/evaluation/batch_facts.h"
@@ -37,22 +37,9 @@ ResultsFacts readResultsFacts(const std::filesystem::path& file);
 /// method. InputError.
 void forEachRun(const std::filesystem::path& file, const std::function<void(RunResult&&)>& take);
 
-/// The iterations of a file's runs, one run at a time.
-class StepReader {
- public:
-  /// InputError.
-  explicit StepReader(const std::filesystem::path& file);
-  StepReader(const StepReader&) = delete;
-  StepReader& operator=(const StepReader&) = delete;
-
-  /// In their order, without details of matches; empty when the file has no such run. InputError.
-  std::vector<RunStep> stepsOf(const RunResult& run);
-
- private:
-  SqlDatabase database_;
-  RowReader<RunStep> reader_;
-  SqlStatement statement_;
-};
+/// Sets the steps of runs of the file, in their order, without details of matches; none for a run
+/// that the file does not have. InputError.
+void readSteps(const std::filesystem::path& file, std::span<RunResult* const> runs);
 
 struct Results {
   ResultsFacts facts;
@@ -63,8 +50,6 @@ Results readResults(const std::filesystem::path& file);
 /// Creates the tables of a new file, in a transaction.
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset);
 void addMethodFacts(SqlDatabase& database, const MethodFacts& method);
-/// "a, b, c"
-std::string joined(const std::vector<std::string>& names, const std::string& prefix = "");
 
 /// A results file that grows. Each run is a transaction that is on the disk when `add` returns: a
 /// process may be killed at any time, and another one may continue. Case, seed number and method
@@ -76,7 +61,6 @@ class ResultsWriter {
   /// a results file, is being written by another process, or has runs of another dataset or
   /// version.
   ResultsWriter(const std::filesystem::path& file, const DatasetFacts& dataset);
-  ~ResultsWriter();
 
   /// Announces runs of this method. OutputError when the file's runs of the method have other
   /// options.
@@ -92,16 +76,13 @@ class ResultsWriter {
   void end();
 
  private:
-  struct Insertions;
   void insert(const RunResult& run);
-  void insertSteps(std::int64_t run_id, const RunResult& run);
   void noteBatchRun();
 
   std::unique_ptr<FileLock> lock_;
   SqlDatabase database_;
-  std::unique_ptr<Insertions> insertions_;
-  std::unordered_set<std::string> known_;  ///< runs that need not be done again
   BatchRun batch_run_;
+  std::int64_t batch_run_id_ = 0;
   std::int64_t began_ns_ = 0;  ///< of the steady clock
 };
 

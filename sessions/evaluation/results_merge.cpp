@@ -57,8 +57,7 @@ class Merge {
 
   void take(const fs::path& file) {
     const ResultsFacts facts = readResultsFacts(file);
-    const SqlValue name = file.string();
-    SqlStatement(out_, "ATTACH ?1 AS other").run({&name, 1});
+    out_.run("ATTACH ?1 AS other", {file.string()});
     out_.execute("BEGIN");
     takeMethods(facts);
     refuseContradictions(file);

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/run_result.h"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/json/json_writer.h"
-#include "sessions/trace/acceptance.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
@@ -47,10 +44,6 @@ std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& datase
                     dataset_case.camera_from_end_effector);
   }
   return steps;
-}
-
-bool RunResult::hasTag(const std::string& tag) const {
-  return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
 void noteTrace(const LocalizationTrace& trace, RunResult& result) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -112,10 +113,10 @@ struct RunResult {
   std::optional<Requirement> requirement;
   StageSeconds seconds;
   std::string digest;
-  std::vector<RunStep> steps;  ///< of a run in this process; from a results file: StepReader
+  std::vector<RunStep> steps;  ///< of a run in this process; from a results file: readSteps
 
   bool inputFailed() const { return status == "input_error"; }
-  bool hasTag(const std::string& tag) const;
+  bool hasTag(const std::string& tag) const { return std::ranges::count(tags, tag) > 0; }
 };
 
 /// The poses that a run compared, as a JSON list: origin, score, probability and evidence of each.

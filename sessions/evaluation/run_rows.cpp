@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <functional>
-#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -111,9 +110,19 @@ void addSeconds(std::vector<Column<Row>>& columns) {
       {"s_total", "REAL", [](const Row& row) { return SqlValue(row.seconds.total()); }});
 }
 
-PoseError& made(std::optional<PoseError>& error) {
-  if (!error) error.emplace();
-  return *error;
+/// A number of a struct that may be missing: NULL.
+template <class Row, class Struct, class Number>
+Column<Row> partOf(std::string name, std::optional<Struct> Row::*field, Number Struct::*part) {
+  return {std::move(name), "REAL",
+          [field, part](const Row& row) {
+            return row.*field ? sqlReal((*(row.*field)).*part) : SqlValue();
+          },
+          [field, part](Row& row, const SqlValue& value, const fs::path&) {
+            const std::optional<double> real = realOf(value);
+            if (!real) return;
+            if (!(row.*field)) (row.*field).emplace();
+            (*(row.*field)).*part = *real;
+          }};
 }
 
 /// An error has values in the columns of all of its own parts, or in none; those of the model,
@@ -122,22 +131,10 @@ template <class Row>
 void addError(std::vector<Column<Row>>& columns, const std::string& prefix,
               std::optional<PoseError> Row::*field, bool with_model) {
   for (const auto& [name, part] : kErrorParts)
-    columns.push_back({prefix + name, "REAL",
-                       [field, part = part](const Row& row) {
-                         return row.*field ? SqlValue((*(row.*field)).*part) : SqlValue();
-                       },
-                       [field, part = part](Row& row, const SqlValue& value, const fs::path&) {
-                         if (const auto real = realOf(value)) made(row.*field).*part = *real;
-                       }});
+    columns.push_back(partOf(prefix + name, field, part));
   if (!with_model) return;
   for (const auto& [name, part] : kModelErrorParts)
-    columns.push_back({prefix + name, "REAL",
-                       [field, part = part](const Row& row) {
-                         return row.*field ? sqlReal((*(row.*field)).*part) : SqlValue();
-                       },
-                       [field, part = part](Row& row, const SqlValue& value, const fs::path&) {
-                         if (const auto real = realOf(value)) made(row.*field).*part = real;
-                       }});
+    columns.push_back(partOf(prefix + name, field, part));
 }
 
 SqlValue requirementText(const RunResult& run) {
@@ -156,21 +153,6 @@ Column<Row> flag(const char* name, bool Row::*field) {
           [field](Row& row, const SqlValue& value, const fs::path&) {
             row.*field = integerOf(value) != 0;
           }};
-}
-
-void addImageQuality(std::vector<Column<RunResult>>& columns) {
-  for (const auto& [name, part] : kImageQualityParts)
-    columns.push_back({name, "REAL",
-                       [part = part](const RunResult& run) {
-                         return run.image_quality ? SqlValue((*run.image_quality).*part)
-                                                  : SqlValue();
-                       },
-                       [part = part](RunResult& run, const SqlValue& value, const fs::path&) {
-                         const std::optional<double> real = realOf(value);
-                         if (!real) return;
-                         if (!run.image_quality) run.image_quality.emplace();
-                         (*run.image_quality).*part = *real;
-                       }});
 }
 
 /// A rotation as it is, [w, x, y, z]: a matrix would not give the same bits back.
@@ -219,7 +201,8 @@ std::vector<Column<RunResult>> makeRunColumns() {
       known("score_gap", &Run::score_gap),
       integer("competing_poses", &Run::competing_poses),
       known("least_margin_nats", &Run::least_margin_nats)};
-  addImageQuality(columns);
+  for (const auto& [name, part] : kImageQualityParts)
+    columns.push_back(partOf(name, &Run::image_quality, part));
   addError(columns, "", &Run::error, true);
   addError(columns, "seed_", &Run::seed_error, true);
   columns.push_back({"requirement", "TEXT", requirementText, readRequirementText});

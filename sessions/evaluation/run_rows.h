@@ -2,7 +2,6 @@
 // The rows of a results file. Each table's columns are stated once, in run_rows.cpp.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -36,43 +35,25 @@ struct RowTable {
       text += (text.empty() ? "" : ", ") + column.name + " " + column.type;
     return text;
   }
-  std::vector<std::string> names() const {
-    std::vector<std::string> all;
+  /// Names of the columns, after those of keys.
+  std::vector<std::string> names(std::vector<std::string> all = {}) const {
     for (const Column<Row>& column : columns) all.push_back(column.name);
     return all;
   }
-  /// In the order of the names.
-  std::vector<SqlValue> values(const Row& row) const {
-    std::vector<SqlValue> all;
+  /// Values of the columns in the order of the names, after those of keys.
+  std::vector<SqlValue> values(const Row& row, std::vector<SqlValue> all = {}) const {
     for (const Column<Row>& column : columns) all.push_back(column.write(row));
     return all;
   }
-};
-
-/// Reads rows of a statement that selects columns of these names; names that are not in the table
-/// are ignored.
-template <class Row>
-class RowReader {
- public:
-  RowReader(const RowTable<Row>& table, const std::vector<std::string>& names) {
-    for (const std::string& name : names) {
-      const auto found =
-          std::find_if(table.columns.begin(), table.columns.end(),
-                       [&](const Column<Row>& column) { return column.name == name; });
-      columns_.push_back(found != table.columns.end() && found->read ? &*found : nullptr);
-    }
-  }
-
-  /// The current row of the statement. InputError.
+  /// The current row of a statement that selects names() first. InputError.
   Row read(const SqlStatement& statement, const std::filesystem::path& file) const {
     Row row;
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (columns_[i] != nullptr) columns_[i]->read(row, statement.cell(static_cast<int>(i)), file);
+    for (int i = 0; const Column<Row>& column : columns) {
+      if (column.read) column.read(row, statement.cell(i), file);
+      ++i;
+    }
     return row;
   }
-
- private:
-  std::vector<const Column<Row>*> columns_;  ///< nullptr: not read back
 };
 
 const RowTable<MethodFacts>& methodTable();

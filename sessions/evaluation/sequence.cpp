@@ -10,11 +10,8 @@
 namespace boresight::sessions {
 
 DeclaredUncertainty assumedMotion() {
-  DeclaredUncertainty motion;
-  motion.translation_m.setConstant(0.005);
-  motion.rotation_deg.setConstant(1.0);
-  motion.pivot = UncertaintyPivot::kStation;
-  return motion;
+  return {Eigen::Vector3d::Constant(0.005), Eigen::Vector3d::Constant(1.0),
+          UncertaintyPivot::kStation};
 }
 
 Sequence::Sequence(SequenceInputs inputs)

@@ -104,15 +104,19 @@ void SqlDatabase::execute(const std::string& sql) {
   require(sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr));
 }
 
-SqlValue SqlDatabase::value(const std::string& sql) {
+void SqlDatabase::run(const std::string& sql, const std::vector<SqlValue>& values) {
+  SqlStatement(*this, sql).run(values);
+}
+
+SqlValue SqlDatabase::value(const std::string& sql, const std::vector<SqlValue>& values) const {
   SqlStatement statement(*this, sql);
+  statement.bind(values);
   return statement.step() ? statement.cell(0) : SqlValue();
 }
 
 std::vector<std::string> SqlDatabase::columns(const std::string& table) {
   SqlStatement statement(*this, "SELECT name FROM pragma_table_info(?1) ORDER BY cid");
-  const SqlValue name = table;
-  statement.bind({&name, 1});
+  statement.bind({table});
   std::vector<std::string> names;
   while (statement.step()) names.push_back(textOf(statement.cell(0)));
   return names;
@@ -120,7 +124,8 @@ std::vector<std::string> SqlDatabase::columns(const std::string& table) {
 
 std::int64_t SqlDatabase::lastId() const { return sqlite3_last_insert_rowid(handle_.get()); }
 
-SqlStatement::SqlStatement(SqlDatabase& database, const std::string& sql) : database_(&database) {
+SqlStatement::SqlStatement(const SqlDatabase& database, const std::string& sql)
+    : database_(&database) {
   sqlite3_stmt* statement = nullptr;
   database.require(sqlite3_prepare_v2(database.handle(), sql.c_str(), -1, &statement, nullptr));
   statement_.reset(statement);
@@ -130,7 +135,7 @@ void SqlStatement::Finalize::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
 }
 
-void SqlStatement::bind(std::span<const SqlValue> values) {
+void SqlStatement::bind(const std::vector<SqlValue>& values) {
   sqlite3_reset(statement_.get());  // repeats the error of the last step, which was reported then
   int index = 0;
   for (const SqlValue& value : values) {
@@ -156,13 +161,11 @@ bool SqlStatement::step() {
   return code == SQLITE_ROW;
 }
 
-void SqlStatement::run(std::span<const SqlValue> values) {
+void SqlStatement::run(const std::vector<SqlValue>& values) {
   bind(values);
   (void)step();
   sqlite3_reset(statement_.get());
 }
-
-int SqlStatement::columnCount() const { return sqlite3_column_count(statement_.get()); }
 
 SqlValue SqlStatement::cell(int column) const {
   sqlite3_stmt* statement = statement_.get();
@@ -184,7 +187,7 @@ SqlValue SqlStatement::cell(int column) const {
 
 std::vector<SqlValue> SqlStatement::row() const {
   std::vector<SqlValue> cells;
-  for (int i = 0; i < columnCount(); ++i) cells.push_back(cell(i));
+  for (int i = 0; i < sqlite3_column_count(statement_.get()); ++i) cells.push_back(cell(i));
   return cells;
 }
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -45,8 +44,11 @@ class SqlDatabase {
   SqlAccess access() const { return access_; }
   /// One statement or several, without results.
   void execute(const std::string& sql);
-  /// The first cell of a query's first row; NULL when there is none.
-  SqlValue value(const std::string& sql);
+  /// One statement with the values of ?1, ?2, ..., without results.
+  void run(const std::string& sql, const std::vector<SqlValue>& values);
+  /// The first cell of a query's first row, with the values of ?1, ?2, ...; NULL when there is
+  /// none.
+  SqlValue value(const std::string& sql, const std::vector<SqlValue>& values = {}) const;
   /// The names of a table's columns; empty when there is no such table.
   std::vector<std::string> columns(const std::string& table);
   std::int64_t lastId() const;
@@ -69,14 +71,13 @@ class SqlDatabase {
 /// A statement that can be executed any number of times. Its database must outlive it.
 class SqlStatement {
  public:
-  SqlStatement(SqlDatabase& database, const std::string& sql);
+  SqlStatement(const SqlDatabase& database, const std::string& sql);
   /// Binds the values of ?1, ?2, ... and restarts.
-  void bind(std::span<const SqlValue> values);
+  void bind(const std::vector<SqlValue>& values);
   /// Whether there is a (further) row.
   bool step();
   /// Binds and runs a statement without result rows.
-  void run(std::span<const SqlValue> values);
-  int columnCount() const;
+  void run(const std::vector<SqlValue>& values);
   SqlValue cell(int column) const;
   std::vector<SqlValue> row() const;
 
@@ -84,7 +85,7 @@ class SqlStatement {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const;
   };
-  SqlDatabase* database_;
+  const SqlDatabase* database_;
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 

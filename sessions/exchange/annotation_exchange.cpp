@@ -2,10 +2,7 @@
 #include "sessions/exchange/annotation_exchange.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -30,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Annotations& requireMarks(const Session& session, const std::string& case_id) {
+const Annotations& requireAnnotations(const Session& session, const std::string& case_id) {
   (void)knownCase(session, case_id);
   const auto found = session.annotations.find(case_id);
   if (found == session.annotations.end())
@@ -48,26 +45,6 @@ void tell(const ExportProgress& progress, std::size_t done, std::size_t of) {
   if (progress) progress(static_cast<int>(done), static_cast<int>(of));
 }
 
-/// Case by case, in the order of the session.
-HandedPoses requirePoses(const Session& session, const std::vector<std::string>& case_ids,
-                         const ExportProgress& progress) {
-  for (const std::string& id : case_ids) (void)knownCase(session, id);
-  const std::set<std::string> asked(case_ids.begin(), case_ids.end());
-  HandedPoses handed;
-  for (std::size_t i = 0; i < session.cases.size(); ++i) {
-    const std::string& id = session.cases[i]->id;
-    tell(progress, i, session.cases.size());
-    if (!asked.empty() && !asked.contains(id)) continue;
-    HandedPoses one = handedPoses(session, {id});
-    std::ranges::move(one.poses, std::back_inserter(handed.poses));
-    std::ranges::move(one.notes, std::back_inserter(handed.notes));
-  }
-  if (handed.poses.empty())
-    throw InputError("session", "cases",
-                     handed.notes.empty() ? "there is none" : handed.notes.front());
-  return handed;
-}
-
 void requireHonestName(const std::filesystem::path& file, const HandedPoses& handed) {
   if (file.filename().string().find(kNotValidatedName) != std::string::npos) return;
   for (const HandedPose& pose : handed.poses)
@@ -78,17 +55,17 @@ void requireHonestName(const std::filesystem::path& file, const HandedPoses& han
                                  " into the name, or export only the validated cases");
 }
 
-ExportReport reportOf(const CasePoses& case_poses) {
+ExportReport reportOf(const HandedPoses& case_poses) {
   ExportReport report;
-  for (const CasePose& pose : case_poses.poses) report.case_ids.push_back(pose.case_id);
+  for (const HandedPose& pose : case_poses.poses) report.case_ids.push_back(pose.case_id);
   report.notes = case_poses.notes;
   return report;
 }
 
-void requireOneStation(const Session& session, const CasePoses& case_poses) {
+void requireOneStation(const Session& session, const HandedPoses& case_poses) {
   const std::vector<int> stations = stationNumbers(session);
   const int first = stations[placeOf(session, case_poses.poses[0].case_id)];
-  for (const CasePose& pose : case_poses.poses)
+  for (const HandedPose& pose : case_poses.poses)
     if (stations[placeOf(session, pose.case_id)] != first)
       throw InputError("session", "cases",
                        "'" + case_poses.poses[0].case_id + "' and '" + pose.case_id +
@@ -97,7 +74,7 @@ void requireOneStation(const Session& session, const CasePoses& case_poses) {
 }
 
 /// Who validated this very pose, or that it is not validated.
-std::string remarkOf(const Session& session, const CasePose& pose) {
+std::string remarkOf(const Session& session, const HandedPose& pose) {
   const ReviewStatus status = reviewStatusOf(session, pose.case_id);
   const bool judged = status.holds() && status.decision->pose &&
                       status.decision->pose->camera_from_station == pose.camera_from_station;
@@ -114,16 +91,17 @@ Camera prepared(const SessionCase& session_case) {
   return camera;
 }
 
-/// What formats without vectors are given, and what is said of it.
+/// A camera for formats without vectors, and a remark on it.
 struct ExchangeCamera {
   Camera camera;
   std::string remark;  ///< empty: it is the case's own
 };
 
-/// A camera of the CAHV family is fitted at the distance of the seed, and says with what error.
+/// A camera that COLMAP does not know is fitted at the distance of the seed; the remark has the
+/// error.
 ExchangeCamera exchangeCamera(const SessionCase& session_case) {
   const Camera own = prepared(session_case);
-  if (!isCahvFamily(own.model)) return {own, ""};
+  if (hasColmapModel(own.model)) return {own, ""};
   try {
     const FittedCamera fitted = fitCamera(
         own, CameraModel::kBrownConrady,
@@ -146,9 +124,8 @@ void writeBopImage(const fs::path& folder, const SessionCase& session_case, int 
     throw InputError(session_case.image.source.file,
                      "has another size than the camera of case " + session_case.id);
   const UndistortedImage undistorted_image = undistort(camera, view);
-  char name[32];
-  (void)std::snprintf(name, sizeof name, "%06d.png", number);
-  writePng(folder / name, undistorted_image.pixels, camera.width, camera.height, 1);
+  writePng(folder / (bopNumber(number) + ".png"), undistorted_image.pixels, camera.width,
+           camera.height, 1);
 }
 
 /// Gives a case a truth, unless it has another one that is to stay.
@@ -203,7 +180,7 @@ const SessionCase* caseOfImage(const Session& session, const fs::path& file,
   return found.empty() ? nullptr : found[0];
 }
 
-/// Those that are switched on, where both sides are marked.
+/// The enabled point pairs with both positions.
 std::vector<SeenPoint> annotatedPoints(const Session& session, const std::string& case_id) {
   std::vector<SeenPoint> points;
   const auto found = session.annotations.find(case_id);
@@ -215,9 +192,9 @@ std::vector<SeenPoint> annotatedPoints(const Session& session, const std::string
 
 }  // namespace
 
-CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids) {
+HandedPoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids) {
   for (const std::string& id : case_ids) (void)knownCase(session, id);
-  CasePoses case_poses;
+  HandedPoses case_poses;
   for (const auto& session_case : session.cases) {
     const bool asked =
         std::find(case_ids.begin(), case_ids.end(), session_case->id) != case_ids.end();
@@ -229,11 +206,15 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
     if (!annotated && !asked) continue;
     const CaseAnnotationsSolution solved =
         solveCaseAnnotations(annotations, annotationsGuess(*session_case), {});
-    if (const auto pose = solved.camera_from_station())
-      case_poses.poses.push_back({session_case->id, *pose});
-    else
+    if (const auto solved_pose = solved.camera_from_station()) {
+      HandedPose& pose = case_poses.poses.emplace_back();
+      pose.case_id = session_case->id;
+      pose.source = PoseSource::kAnnotation;
+      pose.camera_from_station = *solved_pose;
+    } else {
       case_poses.notes.push_back("case '" + session_case->id +
                                  "' has no pose: " + solved.result.reason);
+    }
   }
   if (case_poses.poses.empty())
     throw InputError("session", "annotations",
@@ -243,43 +224,39 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
   return case_poses;
 }
 
-CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids,
-                          const ExportProgress& progress) {
-  const HandedPoses handed = requirePoses(session, case_ids, progress);
-  CasePoses case_poses;
-  case_poses.notes = handed.notes;
-  for (const HandedPose& pose : handed.poses)
-    case_poses.poses.push_back({pose.case_id, pose.camera_from_station});
-  return case_poses;
+HandedPoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids,
+                            const ExportProgress& progress) {
+  HandedPoses handed = handedPoses(session, case_ids, progress);
+  if (handed.poses.empty())
+    throw InputError("session", "cases",
+                     handed.notes.empty() ? "there is none" : handed.notes.front());
+  return handed;
 }
 
 ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
                               const std::vector<std::string>& case_ids, int scene_id,
                               const ExportProgress& progress) {
-  const HandedPoses handed = requirePoses(session, case_ids, progress);
+  const HandedPoses handed = posesToHandOver(session, case_ids, progress);
   requireHonestName(file, handed);
   const std::vector<int> numbers = imageNumbers(session);
   const std::vector<int> stations = stationNumbers(session);
   std::vector<BopResult> results;
-  ExportReport report;
-  report.notes = handed.notes;
   for (const HandedPose& pose : handed.poses) {
     const std::size_t place = placeOf(session, pose.case_id);
     results.push_back({scene_id, numbers[place], stations[place], pose.score,
                        pose.camera_from_station, pose.seconds});
-    report.case_ids.push_back(pose.case_id);
   }
   writeBopResults(file, results);
-  return report;
+  return reportOf(handed);
 }
 
-ExportReport exportColmap(const Session& session, const fs::path& folder, const CasePoses& poses,
+ExportReport exportColmap(const Session& session, const fs::path& folder, const HandedPoses& poses,
                           const ExportProgress& progress) {
   requireOneStation(session, poses);
   const std::vector<std::string> names = imageNames(session);
   std::vector<PosedImage> images;
   std::vector<std::string> notes;
-  for (const CasePose& pose : poses.poses) {
+  for (const HandedPose& pose : poses.poses) {
     tell(progress, images.size(), poses.poses.size());
     const std::size_t place = placeOf(session, pose.case_id);
     const ExchangeCamera camera = exchangeCamera(*session.cases[place]);
@@ -296,7 +273,7 @@ ExportReport exportColmap(const Session& session, const fs::path& folder, const 
   return report;
 }
 
-ExportReport exportBop(const Session& session, const fs::path& folder, const CasePoses& poses,
+ExportReport exportBop(const Session& session, const fs::path& folder, const HandedPoses& poses,
                        const ExportProgress& progress) {
   const std::vector<int> numbers = imageNumbers(session);
   const std::vector<int> stations = stationNumbers(session);
@@ -304,7 +281,7 @@ ExportReport exportBop(const Session& session, const fs::path& folder, const Cas
     std::error_code error;
     if (!fs::create_directory(to / "gray", error)) throw OutputError(to / "gray", error.message());
     std::vector<BopObject> objects;
-    for (const CasePose& pose : poses.poses) {
+    for (const HandedPose& pose : poses.poses) {
       tell(progress, objects.size(), poses.poses.size());
       const std::size_t place = placeOf(session, pose.case_id);
       const SessionCase& session_case = *session.cases[place];
@@ -319,12 +296,12 @@ ExportReport exportBop(const Session& session, const fs::path& folder, const Cas
 }
 
 void exportAnnotations(const Session& session, const std::string& case_id, const fs::path& file) {
-  writeAnnotations(file, requireMarks(session, case_id));
+  writeAnnotations(file, requireAnnotations(session, case_id));
 }
 
 std::vector<std::string> exportLandmarks(const Session& session, const std::string& case_id,
                                          const fs::path& file) {
-  const Annotations& annotations = requireMarks(session, case_id);
+  const Annotations& annotations = requireAnnotations(session, case_id);
   std::error_code error;
   std::vector<Landmark> landmarks;
   if (fs::exists(file, error)) landmarks = readLandmarks(file);

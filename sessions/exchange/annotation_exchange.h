@@ -8,37 +8,27 @@
 #include <string>
 #include <vector>
 
-#include "sessions/evaluation/posed_image.h"
+#include "sessions/review/validated_pose_file.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
 
-struct CasePose {
-  std::string case_id;
-  Pose camera_from_station;
-};
-
-struct CasePoses {
-  std::vector<CasePose> poses;     ///< in the order of the session
-  std::vector<std::string> notes;  ///< cases without a pose, and why
-};
-
 /// Poses solved from annotations as by `solveCaseAnnotations`, each together with its rig: of the
 /// given cases, or of all cases with annotations (their own or their rig's). InputError for an id
 /// that does not exist, and when there is no pose.
-CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids);
+HandedPoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids);
 
 /// Called with the number of cases written or read so far, and of all.
 using ExportProgress = std::function<void(int done, int of)>;
 
 /// The poses of cases to be handed over (handedPoses). InputError when there is none.
-CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids,
-                          const ExportProgress& progress = {});
+HandedPoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids,
+                            const ExportProgress& progress = {});
 
 /// Result of an export.
 struct ExportReport {
   std::vector<std::string> case_ids;
-  std::vector<std::string> notes;  ///< as in CasePoses
+  std::vector<std::string> notes;  ///< as in HandedPoses
 };
 
 /// Writes a new folder with a COLMAP text model (colmap_text.h) of the poses: whole or not at all.
@@ -47,7 +37,7 @@ struct ExportReport {
 /// validated a pose, or states that it is not validated. InputError when the cases are of several
 /// stations: a model has one world. OutputError.
 ExportReport exportColmap(const Session& session, const std::filesystem::path& folder,
-                          const CasePoses& poses, const ExportProgress& progress = {});
+                          const HandedPoses& poses, const ExportProgress& progress = {});
 
 /// Writes a new folder with a BOP scene (bop_scene.h) of the poses: scene_gt.json,
 /// scene_camera.json, and in gray/ the undistorted 8-bit images. Images are numbered by their file
@@ -56,7 +46,7 @@ ExportReport exportColmap(const Session& session, const std::filesystem::path& f
 /// `remark` in scene_gt.json names who validated a pose, or states that it is not validated.
 /// InputError when an image cannot be read; OutputError.
 ExportReport exportBop(const Session& session, const std::filesystem::path& folder,
-                       const CasePoses& poses, const ExportProgress& progress = {});
+                       const HandedPoses& poses, const ExportProgress& progress = {});
 
 /// Writes the handed-over poses of cases as a BOP19 results file: images and objects are numbered
 /// as `exportBop` does, in this scene; the score is 1 for a validated pose or one from annotations,

@@ -54,7 +54,7 @@ const std::vector<ColmapModel>& colmapModels() {
 constexpr const char* kWhatToDo =
     "; undistort the images with COLMAP's image_undistorter and read its model";
 
-/// For a camera with a lens; those of the CAHV family are rejected before.
+/// Of a camera for which `hasColmapModel`.
 const ColmapModel& modelFor(const Camera& camera) {
   if (camera.model == CameraModel::kPinhole) return colmapModels()[0];
   if (camera.model == CameraModel::kKannalaBrandt) return colmapModels()[3];
@@ -65,11 +65,10 @@ const ColmapModel& modelFor(const Camera& camera) {
 
 std::string cameraLine(int id, const Camera& camera) {
   const ColmapModel& model = modelFor(camera);
-  std::string line = std::to_string(id) + " " + model.name + " " + std::to_string(camera.width) +
-                     " " + std::to_string(camera.height);
-  for (const double value :
-       {camera.fx, camera.fy, camera.cx + kPixelOrigin, camera.cy + kPixelOrigin})
-    line += " " + numberText(value);
+  std::string line =
+      std::to_string(id) + " " + model.name + " " + std::to_string(camera.width) + " " +
+      std::to_string(camera.height) + " " +
+      numbersText({camera.fx, camera.fy, camera.cx + kPixelOrigin, camera.cy + kPixelOrigin});
   for (const std::size_t i : model.distortion) line += " " + numberText(camera.distortion[i]);
   return line + "\n";
 }
@@ -82,8 +81,8 @@ class ColmapPoints {
     std::string line;
     for (std::size_t i = 0; i < image.points.size(); ++i) {
       const SeenPoint& seen = image.points[i];
-      line += (i > 0 ? " " : "") + numberText(seen.pixel.x() + kPixelOrigin) + " " +
-              numberText(seen.pixel.y() + kPixelOrigin) + " " +
+      line += (i > 0 ? " " : "") +
+              numbersText({seen.pixel.x() + kPixelOrigin, seen.pixel.y() + kPixelOrigin}) + " " +
               std::to_string(note(image, seen, i));
     }
     return line + "\n";
@@ -93,10 +92,9 @@ class ColmapPoints {
   std::string text() const {
     std::string text = "# POINT3D_ID X Y Z R G B ERROR, then IMAGE_ID POINT2D_IDX of its images\n";
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      text += std::to_string(i + 1);
-      for (const double value : points_[i].place_m) text += " " + numberText(value);
-      text += " 128 128 128 " + numberText(points_[i].distances_px / points_[i].images) +
-              points_[i].track + "\n";
+      const Point& point = points_[i];
+      text += std::to_string(i + 1) + " " + numbersText(point.place_m) + " 128 128 128 " +
+              numberText(point.distances_px / point.images) + point.track + "\n";
     }
     return text;
   }
@@ -130,13 +128,12 @@ class ColmapPoints {
 std::string imageLine(const PosedImage& image, int camera_id) {
   const Eigen::Quaterniond& q = image.camera_from_station.rotation;
   const Eigen::Vector3d& t = image.camera_from_station.translation_m;
-  std::string line = std::to_string(image.id);
-  for (const double value : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()})
-    line += " " + numberText(value);
-  return line + " " + std::to_string(camera_id) + " " + image.name + "\n";
+  return std::to_string(image.id) + " " +
+         numbersText({q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) + " " +
+         std::to_string(camera_id) + " " + image.name + "\n";
 }
 
-/// The words of a line, and what to say of it.
+/// Reads the words of a line; errors name its number.
 class Line {
  public:
   Line(const std::filesystem::path& file, int number, const std::string& text)
@@ -195,18 +192,14 @@ std::vector<std::string> linesOf(const std::filesystem::path& file) {
   return lines;
 }
 
-bool isComment(const std::string& line) { return !line.empty() && line[0] == '#'; }
-
-bool isBlank(const std::string& line) {
-  return line.find_first_not_of(" \t\r") == std::string::npos;
+bool isCommentOrBlank(const std::string& line) {
+  return line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos;
 }
 
 Camera readCameraLine(Line& line) {
   const std::string name = line.word("the camera's model");
-  const ColmapModel* model = nullptr;
-  for (const ColmapModel& colmap_model : colmapModels())
-    if (name == colmap_model.name) model = &colmap_model;
-  if (model == nullptr) line.fail("no camera model matches " + name + kWhatToDo);
+  const auto model = std::ranges::find(colmapModels(), name, &ColmapModel::name);
+  if (model == colmapModels().end()) line.fail("no camera model matches " + name + kWhatToDo);
   Camera camera;
   camera.model = model->model;
   camera.width = line.integer("the width", 1, kMaxImageSide_px);
@@ -232,7 +225,7 @@ std::map<int, Camera> readCameras(const std::filesystem::path& file) {
   int number = 0;
   for (const std::string& text : linesOf(file)) {
     ++number;
-    if (isComment(text) || isBlank(text)) continue;
+    if (isCommentOrBlank(text)) continue;
     Line line(file, number, text);
     const int id = line.integer("the camera's id", 0, 1 << 30);
     if (!cameras.emplace(id, readCameraLine(line)).second)
@@ -264,6 +257,10 @@ PosedImage readImageLine(Line& line, const std::map<int, Camera>& cameras) {
 
 }  // namespace
 
+bool hasColmapModel(CameraModel model) {
+  return std::ranges::find(colmapModels(), model, &ColmapModel::model) != colmapModels().end();
+}
+
 void writeColmapText(const std::filesystem::path& folder, std::span<const PosedImage> images) {
   std::vector<Camera> cameras;
   std::set<int> ids;
@@ -278,7 +275,7 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
       throw OutputError(folder / "images.txt", "image " + std::to_string(image.id) + " '" +
                                                    image.name +
                                                    "' needs a unique id and a unique name");
-    if (isCahvFamily(image.camera.model))
+    if (!hasColmapModel(image.camera.model))
       throw OutputError(folder / "cameras.txt",
                         "image " + std::to_string(image.id) + " '" + image.name +
                             "' has a camera of the CAHV family, which the format does not know; "
@@ -303,7 +300,7 @@ std::vector<PosedImage> readColmapText(const std::filesystem::path& folder) {
   std::vector<PosedImage> images;
   std::set<int> ids;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (isComment(lines[i]) || isBlank(lines[i])) continue;
+    if (isCommentOrBlank(lines[i])) continue;
     Line line(file, static_cast<int>(i) + 1, lines[i]);
     images.push_back(readImageLine(line, cameras));
     if (!ids.insert(images.back().id).second)

@@ -9,6 +9,9 @@
 
 namespace boresight::sessions {
 
+/// Whether COLMAP has cameras of this model.
+bool hasColmapModel(CameraModel model);
+
 /// Writes cameras.txt, images.txt and points3D.txt of a COLMAP text model
 /// (colmap.github.io/format.html) into a folder. Cameras are PINHOLE, OPENCV, FULL_OPENCV or
 /// OPENCV_FISHEYE, one for all images that share its numbers. Annotated points of several images at

@@ -18,19 +18,11 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 64 * kMegabyte;
 
-template <std::size_t count>
-void bytes(ArchiveReader& archive, std::array<std::uint8_t, count>& values) {
-  for (std::uint8_t& value : values) archive.number(value);
-}
-
 void fields(ArchiveReader& archive, RecordedInputs& inputs) {
-  for (RecordInputs::Hash* hash :
-       {&inputs.sha256.pixels, &inputs.sha256.ignore, &inputs.sha256.scene, &inputs.sha256.camera})
-    bytes(archive, *hash);
-  numbers(archive, inputs.width, inputs.height);
-  fields(archive, inputs.camera_from_station_seed);
-  fields(archive, inputs.uncertainty);
-  vectorFields(archive, inputs.end_effector_in_camera_m);
+  RecordInputs& sha256 = inputs.sha256;
+  items(archive, sha256.pixels, sha256.ignore, sha256.scene, sha256.camera, inputs.width,
+        inputs.height, inputs.camera_from_station_seed, inputs.uncertainty,
+        inputs.end_effector_in_camera_m);
 }
 
 void fields(ArchiveReader& archive, RecordedOptions& recorded) {
@@ -46,8 +38,7 @@ void fields(ArchiveReader& archive, RecordedOptions& recorded) {
 }
 
 void fields(ArchiveReader& archive, RecordedEdges& edges) {
-  bytes(archive, edges.sha256);
-  numbers(archive, edges.low_threshold, edges.high_threshold, edges.edge_count);
+  items(archive, edges.sha256, edges.low_threshold, edges.high_threshold, edges.edge_count);
 }
 
 /// Of `count` hypotheses a record has the chosen one; the rolls of the others follow.
@@ -75,21 +66,18 @@ void fields(ArchiveReader& archive, RecordedIteration& recorded) {
   std::int32_t hypotheses = 0;
   double rms_px = 0.0;
   double roll_rad = 0.0;
-  numbers(archive, trace.index, trace.attempt);
+  items(archive, trace.index, trace.attempt);
   archive.choice(trace.kind, IterationKind::kRefine);
   archive.number(level);
   archive.require(level < kPyramidLevels, "a level that does not exist");
   archive.choice(trace.reached, Stage::kFinished);
   archive.choice(trace.status, kLastLocalizationStatus);
-  archive.number(trace.threshold_px);
-  fields(archive, trace.camera_from_station_before);
-  fields(archive, trace.camera_from_station);
-  numbers(archive, trace.edge_pixel_count, trace.template_side_px, trace.template_count,
-          trace.searched_count, trace.correspondence_count, pnp.inlier_count, pnp.samples,
-          refinement.sample_count, refinement.found_count, refinement.used_count, rms_px,
-          hypotheses, trace.chosen_hypothesis, roll_rad, trace.correction_translation_m,
-          trace.correction_rotation_rad, trace.correction_image_px);
-  bytes(archive, recorded.render_sha256.emplace());
+  items(archive, trace.threshold_px, trace.camera_from_station_before, trace.camera_from_station,
+        trace.edge_pixel_count, trace.template_side_px, trace.template_count, trace.searched_count,
+        trace.correspondence_count, pnp.inlier_count, pnp.samples, refinement.sample_count,
+        refinement.found_count, refinement.used_count, rms_px, hypotheses, trace.chosen_hypothesis,
+        roll_rad, trace.correction_translation_m, trace.correction_rotation_rad,
+        trace.correction_image_px, recorded.render_sha256.emplace());
   trace.level = level;
   const bool refines = trace.kind == IterationKind::kRefine;
   (refines ? refinement.rms_px : pnp.rms_px) = rms_px;
@@ -102,7 +90,7 @@ void fields(ArchiveReader& archive, RecordedTemplate& item) {
   std::uint16_t y = 0;
   std::uint8_t flags = 0;
   float second_score = 0.0F;
-  numbers(archive, x, y, flags, item.found_x, item.found_y, item.score, second_score);
+  items(archive, x, y, flags, item.found_x, item.found_y, item.score, second_score);
   item.x = x;
   item.y = y;
   item.searched = (flags & TemplateFlags::kSearched) != 0;
@@ -117,7 +105,7 @@ struct TemplatesBlock {
 };
 void fields(ArchiveReader& archive, TemplatesBlock& block) {
   archive.number(block.iteration);
-  archive.list(block.templates, [&archive](RecordedTemplate& item) { fields(archive, item); });
+  archive.list(block.templates, [&archive](RecordedTemplate& each) { fields(archive, each); });
 }
 
 struct SupportBlock {
@@ -136,15 +124,13 @@ void fields(ArchiveReader& archive, RecordedEnd& end) {
   std::uint32_t blocks = 0;  // which the number of its own block says, too
   archive.choice(end.status, kLastLocalizationStatus);
   archive.choice(end.fault, kLastStatus);
-  numbers(archive, end.iterations, end.attempts);
-  fields(archive, end.camera_from_station);
+  items(archive, end.iterations, end.attempts, end.camera_from_station);
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column <= row; ++column) {
       archive.number(end.covariance(row, column));
       end.covariance(column, row) = end.covariance(row, column);
     }
-  bytes(archive, digest);
-  archive.number(blocks);
+  items(archive, digest, blocks);
   end.digest = hexText(digest).data();
 }
 

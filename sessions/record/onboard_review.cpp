@@ -8,6 +8,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/record/onboard_record.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"
 
@@ -24,11 +25,6 @@ std::string triple(const Eigen::Vector3d& value, int decimals) {
 /// Largest of three sigmas.
 double largestSigma(const Matrix6d& covariance, int first) {
   return std::sqrt(std::max(0.0, covariance.diagonal().segment<3>(first).maxCoeff()));
-}
-
-std::string turnText(const Pose& pose) {
-  const Eigen::Vector3d turn_deg = rotationLog(pose.rotation) / kDegree_rad;
-  return triple(turn_deg, 3) + " deg";
 }
 
 }  // namespace
@@ -51,9 +47,8 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
 }
 
 RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,
-                                   const LocalizationProblem& ground,
-                                   const ComparisonLimits& limits) {
-  return compareRecords(review.record, recordOf(run, &ground), limits);
+                                   const LocalizationProblem& ground) {
+  return compareRecords(review.record, recordOf(run, &ground));
 }
 
 std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord& record) {
@@ -64,12 +59,13 @@ std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord
     const bool all = static_cast<std::size_t>(std::max(0, end.iterations)) == known;
     lines.emplace_back("Ended as", localizationStatusText(end.status));
     lines.emplace_back("Iterations", std::to_string(end.iterations) + " in " +
-                                         std::to_string(end.attempts) +
-                                         (end.attempts == 1 ? " attempt" : " attempts") +
+                                         countText(end.attempts, "attempt") +
                                          (all ? "" : ", " + std::to_string(known) + " known"));
     lines.emplace_back("Camera from station",
                        triple(kMillimetres * end.camera_from_station.translation_m, 2) + " mm");
-    lines.emplace_back("Rotation vector", turnText(end.camera_from_station));
+    lines.emplace_back(
+        "Rotation vector",
+        triple(rotationLog(end.camera_from_station.rotation) / kDegree_rad, 3) + " deg");
     if (!end.covariance.isZero())
       lines.emplace_back("One sigma at the camera, at most",
                          fixedText(kMillimetres * largestSigma(end.covariance, 3), 3) + " mm, " +
@@ -85,17 +81,11 @@ std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord
 }
 
 std::string verdictText(const RecordComparison& comparison) {
-  switch (comparison.verdict) {
-    case RunVerdict::kEqual:
-      return "Agrees with the run on the ground bit for bit.";
-    case RunVerdict::kWithinLimits:
-      return comparison.first
-                 ? "Within the limits; the pixels differ."
-                 : "Agrees with the run on the ground bit for bit as far as it reaches.";
-    case RunVerdict::kDifferent:
-      break;
-  }
-  return "Differs from the run on the ground.";
+  if (comparison.verdict == RunVerdict::kDifferent) return "Differs from the run on the ground.";
+  if (comparison.first) return "Within the limits; the pixels differ.";
+  return comparison.verdict == RunVerdict::kEqual
+             ? "Agrees with the run on the ground bit for bit."
+             : "Agrees with the run on the ground bit for bit as far as it reaches.";
 }
 
 std::string limitsText(const ComparisonLimits& limits) {

@@ -4,44 +4,35 @@
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <sstream>
 #include <type_traits>
 
 #include "core/record/record_hashes.h"
 #include "sessions/run/problem.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
 
 RecordedInputs inputsOf(const LocalizationProblem& given, const LocalizerOptions& options) {
-  RecordedInputs recorded_inputs;
   const LocalizationProblem used = withoutUnusedInputs(given, options);
-  recorded_inputs.sha256 = recordInputs(used);
-  recorded_inputs.width = given.image.width;
-  recorded_inputs.height = given.image.height;
-  recorded_inputs.camera_from_station_seed = given.camera_from_station_seed;
-  recorded_inputs.uncertainty = given.uncertainty;
-  recorded_inputs.end_effector_in_camera_m = used.end_effector_in_camera_m;
-  return recorded_inputs;
+  return {recordInputs(used), given.image.width,
+          given.image.height, given.camera_from_station_seed,
+          given.uncertainty,  used.end_effector_in_camera_m};
 }
 
 RecordedOptions optionsOf(const LocalizerOptions& options, std::int32_t first_iteration) {
-  RecordedOptions recorded_options;
-  recorded_options.first_iteration = first_iteration;
-  LocalizerOptions::visitFields(
-      options, [&recorded_options](const OptionInfo& info, const auto& field) {
-        using Field = std::remove_cvref_t<decltype(field)>;
-        RecordedOption option;
-        option.name = info.name;
-        option.kind = optionKindOf<Field>();
-        if constexpr (std::is_floating_point_v<Field>) {
-          option.bits = std::bit_cast<std::uint64_t>(static_cast<double>(field));
-        } else {
-          option.bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(field));
-        }
-        recorded_options.options.push_back(std::move(option));
-      });
-  return recorded_options;
+  RecordedOptions recorded{first_iteration, {}};
+  LocalizerOptions::visitFields(options, [&recorded](const OptionInfo& info, const auto& field) {
+    using Field = std::remove_cvref_t<decltype(field)>;
+    RecordedOption& option = recorded.options.emplace_back();
+    option.name = info.name;
+    option.kind = optionKindOf<Field>();
+    if constexpr (std::is_floating_point_v<Field>)
+      option.bits = std::bit_cast<std::uint64_t>(static_cast<double>(field));
+    else
+      option.bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(field));
+  });
+  return recorded;
 }
 
 std::optional<RecordedEdges> edgesOf(const EdgeMapTrace& edges) {
@@ -60,37 +51,31 @@ std::optional<RecordHash> renderHashOf(const IterationTrace& run) {
 }
 
 RecordedTemplate templateOf(const Template& item, const Match* match) {
-  RecordedTemplate recorded_template;
-  recorded_template.x = item.center_x;
-  recorded_template.y = item.center_y;
-  if (match == nullptr || !match->searched) return recorded_template;
-  recorded_template.searched = true;
-  recorded_template.at_border = match->at_border;
-  recorded_template.found_x = static_cast<float>(match->x);
-  recorded_template.found_y = static_cast<float>(match->y);
-  recorded_template.score = static_cast<float>(whsScore(match->peak.counts, match->norms));
+  RecordedTemplate recorded;
+  recorded.x = item.center_x;
+  recorded.y = item.center_y;
+  if (match == nullptr || !match->searched) return recorded;
+  recorded.searched = true;
+  recorded.at_border = match->at_border;
+  recorded.found_x = static_cast<float>(match->x);
+  recorded.found_y = static_cast<float>(match->y);
+  recorded.score = static_cast<float>(whsScore(match->peak.counts, match->norms));
   if (match->peak.has_second)
-    recorded_template.second_score =
-        static_cast<float>(whsScore(match->peak.second_counts, match->norms));
-  return recorded_template;
+    recorded.second_score = static_cast<float>(whsScore(match->peak.second_counts, match->norms));
+  return recorded;
 }
 
 std::optional<std::vector<RecordedTemplate>> templatesOf(const IterationTrace& run) {
   const bool selected = run.kind == IterationKind::kMatch && run.reached >= Stage::kTemplates;
   if (!selected || (run.template_count > 0 && run.templates.empty())) return std::nullopt;
-  std::vector<RecordedTemplate> recorded_templates;
+  std::vector<RecordedTemplate> recorded;
   for (std::size_t i = 0; i < run.templates.size(); ++i)
-    recorded_templates.push_back(
+    recorded.push_back(
         templateOf(run.templates[i], i < run.matches.size() ? &run.matches[i] : nullptr));
-  if (run.reached < Stage::kPose) return recorded_templates;
+  if (run.reached < Stage::kPose) return recorded;
   for (std::size_t c = 0; c < run.template_of.size() && c < run.pnp.inlier.size(); ++c)
-    recorded_templates[static_cast<std::size_t>(run.template_of[c])].inlier =
-        run.pnp.inlier[c] != 0;
-  return recorded_templates;
-}
-
-RecordedIteration iterationOf(const IterationTrace& run) {
-  return {run, renderHashOf(run), templatesOf(run), std::nullopt};
+    recorded[static_cast<std::size_t>(run.template_of[c])].inlier = run.pnp.inlier[c] != 0;
+  return recorded;
 }
 
 /// A trace has the support of the pose that was judged last.
@@ -99,9 +84,10 @@ void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardR
   for (auto item = record.iterations.rbegin(); item != record.iterations.rend(); ++item) {
     const bool converged =
         item == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
-    const bool refused = item->trace.status == LocalizationStatus::kNotSupported ||
-                         item->trace.status == LocalizationStatus::kBlurred ||
-                         item->trace.status == LocalizationStatus::kCameraMismatch;
+    const LocalizationStatus own = item->trace.status;
+    const bool refused = own == LocalizationStatus::kNotSupported ||
+                         own == LocalizationStatus::kBlurred ||
+                         own == LocalizationStatus::kCameraMismatch;
     if (!converged && !refused) continue;
     if (taken)
       record.missing.push_back("the edge support of iteration " +
@@ -110,18 +96,6 @@ void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardR
       item->support = support;
     taken = true;
   }
-}
-
-RecordedEnd endOf(const LocalizationTrace& run, std::size_t iterations) {
-  RecordedEnd end;
-  end.status = run.status;
-  end.fault = run.fault;
-  end.iterations = static_cast<std::int32_t>(iterations);
-  end.attempts = run.attempts;
-  end.camera_from_station = run.camera_from_station;
-  end.covariance = run.covariance;
-  end.digest = run.digest;
-  return end;
 }
 
 void noteWhatTheRunLacks(OnboardRecord& record) {
@@ -136,11 +110,7 @@ void noteWhatTheRunLacks(OnboardRecord& record) {
   if (!record.end) record.missing.push_back("how the run ended: it was halted");
 }
 
-std::string valueOf(const RecordedOption& option) {
-  std::ostringstream text;
-  text << option.value();
-  return text.str();
-}
+std::string valueOf(const RecordedOption& option) { return formatText("%g", option.value()); }
 
 /// False when the option is of another kind or its value out of range.
 template <class Field>
@@ -191,37 +161,46 @@ OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* 
     if (static_cast<std::size_t>(change.iteration) < complete)
       record.options.push_back(optionsOf(change.options, change.iteration));
   if (run.edges) record.edges = edgesOf(*run.edges);
-  for (std::size_t i = 0; i < complete; ++i)
-    record.iterations.push_back(iterationOf(*run.iterations[i]));
+  for (std::size_t i = 0; i < complete; ++i) {
+    const IterationTrace& iteration = *run.iterations[i];
+    record.iterations.push_back(
+        {iteration, renderHashOf(iteration), templatesOf(iteration), std::nullopt});
+  }
   takeSupport(run.support, run.status, record);
-  if (run.status != LocalizationStatus::kRunning) record.end = endOf(run, complete);
+  if (run.status != LocalizationStatus::kRunning)
+    record.end = RecordedEnd{run.status,
+                             run.fault,
+                             static_cast<std::int32_t>(complete),
+                             run.attempts,
+                             run.camera_from_station,
+                             run.covariance,
+                             run.digest};
   noteWhatTheRunLacks(record);
   return record;
 }
 
 RecordedPlan planOf(const OnboardRecord& record) {
-  RecordedPlan recorded_plan;
-  recorded_plan.plan.options = defaultProfile();
+  RecordedPlan result;
+  result.plan.options = defaultProfile();
   for (const RecordedOptions& recorded : record.options) {
     std::vector<std::string> remarks;
     const LocalizerOptions options = optionsOf(recorded, remarks);
-    if (recorded.first_iteration == 0 && !recorded_plan.has_options) {
-      recorded_plan.plan.options = options;
-      recorded_plan.has_options = true;
-      recorded_plan.remarks = remarks;  // those of changes are the same
+    if (recorded.first_iteration == 0 && !result.has_options) {
+      result.plan.options = options;
+      result.has_options = true;
+      result.remarks = remarks;  // those of changes are the same
     } else {
-      recorded_plan.plan.changes.push_back({recorded.first_iteration, options});
+      result.plan.changes.push_back({recorded.first_iteration, options});
     }
   }
-  if (!recorded_plan.has_options)
-    recorded_plan.remarks.push_back("The record has no options; the defaults are used.");
-  const std::string problem = planProblem(recorded_plan.plan);
+  if (!result.has_options)
+    result.remarks.push_back("The record has no options; the defaults are used.");
+  const std::string problem = planProblem(result.plan);
   if (!problem.empty()) {
-    recorded_plan.remarks.push_back("Options changed during the run are left out: " + problem +
-                                    ".");
-    recorded_plan.plan.changes.clear();
+    result.remarks.push_back("Options changed during the run are left out: " + problem + ".");
+    result.plan.changes.clear();
   }
-  return recorded_plan;
+  return result;
 }
 
 }  // namespace boresight::sessions

@@ -87,15 +87,10 @@ cv::Mat scaledDown(const ColorImage& image) {
 cairo_surface_t* makeSurface(const cv::Mat& bgr) {
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, bgr.cols, bgr.rows);
   cairo_surface_flush(surface);
-  unsigned char* data = cairo_image_surface_get_data(surface);
-  const int stride = cairo_image_surface_get_stride(surface);
-  for (int y = 0; data != nullptr && y < bgr.rows; ++y) {
-    auto* row = reinterpret_cast<std::uint32_t*>(data + static_cast<std::ptrdiff_t>(y) * stride);
-    for (int x = 0; x < bgr.cols; ++x) {
-      const auto& p = bgr.at<cv::Vec3b>(y, x);
-      row[x] =
-          static_cast<std::uint32_t>(p[2]) << 16U | static_cast<std::uint32_t>(p[1]) << 8U | p[0];
-    }
+  if (unsigned char* data = cairo_image_surface_get_data(surface)) {
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
+    cv::Mat pixels(bgr.size(), CV_8UC4, data, stride);
+    cv::cvtColor(bgr, pixels, cv::COLOR_BGR2BGRA);
   }
   cairo_surface_mark_dirty(surface);
   std::vector<std::uint8_t> jpeg;

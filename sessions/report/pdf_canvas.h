@@ -130,6 +130,9 @@ void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot);
 double drawSeriesNames(PdfCanvas& canvas, double x, double y, double width,
                        const std::vector<PdfSeries>& series);
 
+/// Draws a grid line across an area, with its value to the left.
+void drawTickY(PdfCanvas& canvas, const PdfBox& area, double y, double value);
+
 /// Counts in equal bins from `low` to `high`; values beyond count in the outermost ones.
 void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& title,
                    const std::string& x_label, const std::vector<double>& values, double low,

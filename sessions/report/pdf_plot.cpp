@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -29,9 +30,7 @@ struct Axes {
 };
 
 std::string tickText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
-  return text;
+  return formatText("%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
 }
 
 bool isDrawn(const PdfPlot& plot, const std::array<double, 2>& point) {
@@ -91,13 +90,6 @@ void drawTickX(PdfCanvas& canvas, const Axes& axes, double value) {
               {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kCentre});
 }
 
-void drawTickY(PdfCanvas& canvas, const Axes& axes, double value, const std::string& text) {
-  const double y = axes.pageY(value);
-  canvas.line(axes.box.x, y, axes.box.right(), y, kPaperGrid, 0.4);
-  canvas.text(axes.box.x - 34.0, y - 4.0, 32.0, text,
-              {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
-}
-
 void drawTicks(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
   for (const double value : roundTicks(axes.x_low, axes.x_high, 7))
     if (!(plot.whole_x || plot.log_x) || value == std::floor(value))
@@ -105,7 +97,7 @@ void drawTicks(PdfCanvas& canvas, const Axes& axes, const PdfPlot& plot) {
   for (const double value : roundTicks(axes.y_low, axes.y_high, 5)) {
     if (plot.log_y && value != std::floor(value)) continue;
     const double y = plot.log_y ? std::pow(10.0, value) : value;
-    drawTickY(canvas, axes, y, tickText(y));
+    drawTickY(canvas, axes.box, axes.pageY(y), y);
   }
 }
 
@@ -169,6 +161,12 @@ std::vector<double> roundTicks(double low, double high, int most) {
   return ticks;
 }
 
+void drawTickY(PdfCanvas& canvas, const PdfBox& area, double y, double value) {
+  canvas.line(area.x, y, area.right(), y, kPaperGrid, 0.4);
+  canvas.text(area.x - 34.0, y - 4.0, 32.0, tickText(value),
+              {kLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
+}
+
 void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot) {
   const PdfBox area = drawSurroundings(canvas, box, plot.title, plot.x_label, plot.y_label);
   const Axes axes = axesOf(area, plot);
@@ -211,7 +209,7 @@ void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& titl
             1.05 * std::max(1.0, *std::max_element(counts.begin(), counts.end()))};
   for (const double value : roundTicks(low, high, 6)) drawTickX(canvas, axes, value);
   for (const double value : roundTicks(0.0, axes.y_high, 4))
-    drawTickY(canvas, axes, value, tickText(value));
+    drawTickY(canvas, area, axes.pageY(value), value);
   const double width = area.width / bins;
   for (int i = 0; i < bins; ++i) {
     const double top = axes.pageY(counts[static_cast<std::size_t>(i)]);

@@ -2,9 +2,6 @@
 #include "sessions/report/pose_report.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -18,8 +15,9 @@
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
+#include "sessions/session/stated_inputs.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {
@@ -33,15 +31,6 @@ constexpr double kGap = 8.0;
 
 const PdfTextStyle kHeading{9.5, true, false, kInk, 1};
 const PdfTextStyle kFaint{7.0, false, false, kFaintInk, 0};
-
-__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
-  std::array<char, 256> text{};
-  va_list arguments;
-  va_start(arguments, format);
-  (void)std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  return text.data();
-}
 
 const SessionCase& caseOf(const PoseReport& report) { return report.loaded->source; }
 
@@ -78,7 +67,7 @@ void drawFoot(PdfCanvas& canvas, const PoseReport& report, int pages) {
               report.pose.review_status + ".  " + what + ", pixels " +
                   caseOf(report).image.pixels_sha256.substr(0, 16) + ", Boresight " + kVersion,
               {6.5, false, false, kFaintInk, 2});
-  canvas.text(kRight - 90.0, kFoot + 4.0, 90.0, formatted("page %d of %d", canvas.page(), pages),
+  canvas.text(kRight - 90.0, kFoot + 4.0, 90.0, formatText("page %d of %d", canvas.page(), pages),
               {6.5, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
 }
 
@@ -96,25 +85,26 @@ double drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport
   const PdfBox taken = canvas.picture(box, picture.image);
   canvas.frame(taken, kFaintInk);
   const double below = taken.bottom() + 2.0;
-  return below + canvas.text(box.x, below, box.width,
-                             formatted("Edges of the seed (orange) and of the pose (blue) over the "
-                                       "image; %d x %d px from (%d, %d).",
-                                       picture.image.width, picture.image.height, picture.left_px,
-                                       picture.top_px),
-                             kFaint);
+  return below +
+         canvas.text(
+             box.x, below, box.width,
+             formatText("Edges of the seed (orange) and of the pose (blue) over the "
+                        "image; %d x %d px from (%d, %d).",
+                        picture.image.width, picture.image.height, picture.left_px, picture.top_px),
+             kFaint);
 }
 
-std::string vectorText(const Eigen::Vector3d& v, const char* unit, const char* number) {
-  const std::string format = std::string(number) + "  " + number + "  " + number + "  %s";
-  std::array<char, 160> text{};
-  (void)std::snprintf(text.data(), text.size(), format.c_str(), v.x(), v.y(), v.z(), unit);
-  return text.data();
+/// `number`: printf's conversion of a component.
+std::string vectorText(const Eigen::Vector3d& vector, const char* unit, const char* number) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) text += formatText(number, vector[axis]) + "  ";
+  return text + unit;
 }
 
 std::string quaternionText(const Pose& pose) {
   Eigen::Quaterniond q = pose.rotation;
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  return formatted("%.9f  %.9f  %.9f  %.9f", q.w(), q.x(), q.y(), q.z());
+  return formatText("%.9f  %.9f  %.9f  %.9f", q.w(), q.x(), q.y(), q.z());
 }
 
 /// Rows with a heading above them.
@@ -148,8 +138,7 @@ PoseQuality qualityOf(const PoseReport& report) {
   ReviewSubject subject;
   subject.loaded = report.loaded;
   subject.requirement = requirementOf(*report.session, caseOf(report));
-  subject.camera_from_station = report.pose.camera_from_station;
-  subject.covariance = report.pose.covariance;
+  static_cast<JudgedPose&>(subject) = report.pose;
   const ReviewSettings& review = report.session->review;
   return poseQuality(subject, checkLimits(review.preset, review.limits).sigmas);
 }
@@ -165,7 +154,7 @@ double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) 
   for (const PrecisionFigure& figure : quality.figures)
     if (figure.judged())
       rows.add(figure.where,
-               figure.text() + formatted("; image alone %.2g %s", *figure.by_image, figure.unit));
+               figure.text() + formatText("; image alone %.2g %s", *figure.by_image, figure.unit));
   return rows.below();
 }
 
@@ -193,7 +182,7 @@ void drawEndEffector(PdfCanvas& canvas, const PdfBox& box, const PoseReport& rep
   rows.add("translation", vectorText(1e3 * correction.translation_m, "mm", "%.4f"));
   rows.addRotation(correction);
   if (!report.pose.covariance.known()) return;
-  const Vector6d sigma = end_effector_pose.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Vector6d sigma = sigmasOf(end_effector_pose.covariance);
   rows.add("1 sigma", vectorText(1e3 * sigma.tail<3>(), "mm", "%.4f"));
   rows.add("", vectorText(1e3 * sigma.head<3>(), "mrad", "%.4f"));
 }
@@ -206,13 +195,14 @@ double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
   };
   row("image",
       session_case.image.source.file.filename().string() +
-          formatted(", %d x %d px, file %s", session_case.image.width, session_case.image.height,
-                    session_case.image.source.sha256.substr(0, 16).c_str()));
+          formatText(", %d x %d px, file %s", session_case.image.width, session_case.image.height,
+                     session_case.image.source.sha256.substr(0, 16).c_str()));
   row("to 8 bit", report.loaded->image.rule);
-  row("camera", formatted("%s, fx %.3f, fy %.3f, cx %.3f, cy %.3f px; centre of the top-left pixel "
-                          "is (0, 0)",
-                          cameraModelName(session_case.camera.model), session_case.camera.fx,
-                          session_case.camera.fy, session_case.camera.cx, session_case.camera.cy));
+  row("camera",
+      formatText("%s, fx %.3f, fy %.3f, cx %.3f, cy %.3f px; centre of the top-left pixel "
+                 "is (0, 0)",
+                 cameraModelName(session_case.camera.model), session_case.camera.fx,
+                 session_case.camera.fy, session_case.camera.cx, session_case.camera.cy));
   for (const LabelItem& line : frameLines(session_case)) row(line.name, line.value);
   for (const LabelItem& item : session_case.image.label)
     if (item.name == "PRODUCT_ID" || item.name == "START_TIME") row(item.name, item.value);
@@ -232,8 +222,8 @@ double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
           : "none");
   if (report.trace) {
     row("run",
-        formatted("%s, %zu iterations, version %s", localizationStatusText(report.trace->status),
-                  report.trace->iterations.size(), report.trace->version.c_str()));
+        formatText("%s, %zu iterations, version %s", localizationStatusText(report.trace->status),
+                   report.trace->iterations.size(), report.trace->version.c_str()));
     row("digest", report.trace->digest);
   }
   return rows.below();
@@ -330,28 +320,25 @@ void drawResidualPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport&
   const double factor = magnification(residuals.rms_px(), 6.0 / scale);
   canvas.clip(taken);
   const std::size_t step = 1 + residuals.all.size() / kMostArrows;
+  const Eigen::Vector2d corner_px(picture.left_px - 0.5, picture.top_px - 0.5);
   for (std::size_t i = 0; i < residuals.all.size(); i += step) {
-    const ReportResidual& report_residual = residuals.all[i];
+    const auto& [predicted_px, residual_px, used] = residuals.all[i];
     const Eigen::Vector2d from =
-        scale * (report_residual.predicted_px - Eigen::Vector2d(picture.left_px, picture.top_px) +
-                 Eigen::Vector2d(0.5, 0.5));
-    const Eigen::Vector2d to = from + scale * factor * report_residual.residual_px;
-    const PdfColor& color = report_residual.used ? kPdfBlue : kPdfOrange;
-    canvas.line(taken.x + from.x(), taken.y + from.y(), taken.x + to.x(), taken.y + to.y(), color,
-                0.5);
-    report_residual.used ? canvas.circle(taken.x + from.x(), taken.y + from.y(), 0.9, color, true)
-                         : canvas.cross(taken.x + from.x(), taken.y + from.y(), 1.4, color);
+        Eigen::Vector2d(taken.x, taken.y) + scale * (predicted_px - corner_px);
+    const Eigen::Vector2d to = from + scale * factor * residual_px;
+    const PdfColor& color = used ? kPdfBlue : kPdfOrange;
+    canvas.line(from.x(), from.y(), to.x(), to.y(), color, 0.5);
+    used ? canvas.circle(from.x(), from.y(), 0.9, color, true)
+         : canvas.cross(from.x(), from.y(), 1.4, color);
   }
   canvas.unclip();
   canvas.frame(taken, kFaintInk);
-  const auto set_aside =
-      std::count_if(residuals.all.begin(), residuals.all.end(),
-                    [](const ReportResidual& report_residual) { return !report_residual.used; });
+  const auto set_aside = std::ranges::count(residuals.all, false, &ReportResidual::used);
   canvas.text(
       box.x, taken.bottom() + 2.0, box.width,
-      formatted("Residuals of %zu %s (one in %zu is drawn), magnified %.3g times; rms %.3f px. "
-                "Dots: used; crosses: not used (%td).",
-                residuals.all.size(), residuals.of, step, factor, residuals.rms_px(), set_aside),
+      formatText("Residuals of %zu %s (one in %zu is drawn), magnified %.3g times; rms %.3f px. "
+                 "Dots: used; crosses: not used (%td).",
+                 residuals.all.size(), residuals.of, step, factor, residuals.rms_px(), set_aside),
       kFaint);
 }
 
@@ -386,8 +373,8 @@ PdfPlot supportPlot(const LocalizationTrace& trace) {
 
 void drawResidualHistogram(PdfCanvas& canvas, const PdfBox& box, const ReportResiduals& residuals) {
   std::vector<double> lengths;
-  for (const ReportResidual& report_residual : residuals.all)
-    if (report_residual.used) lengths.push_back(report_residual.residual_px.norm());
+  for (const ReportResidual& residual : residuals.all)
+    if (residual.used) lengths.push_back(residual.residual_px.norm());
   if (lengths.empty()) return;
   const double high = std::max(0.1, *std::max_element(lengths.begin(), lengths.end()));
   drawHistogram(canvas, box, "Lengths of the used residuals", "px", lengths, 0.0, high, 24);

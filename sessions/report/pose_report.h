@@ -52,7 +52,7 @@ ReportPicture palePicture(const PoseReport& report);
 struct ReportResidual {
   Eigen::Vector2d predicted_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();  ///< observed minus predicted
-  bool used = false;  ///< used for the pose; otherwise rejected
+  bool used = false;                                      ///< used for the pose; otherwise rejected
 };
 
 struct ReportResiduals {

@@ -15,15 +15,18 @@ namespace {
 constexpr double kMargin = 0.12;  ///< around the station, of its size in the image
 constexpr int kLeastSide_px = 160;
 
-/// Where the pose predicts the station; the whole image when it does not say.
+PredictedPlace predicted(const PoseReport& report, const Eigen::Vector3d& point_in_station_m) {
+  return predictPlace(report.loaded->source.camera, report.pose.camera_from_station,
+                      point_in_station_m);
+}
+
+/// Where the pose predicts the station; the whole image where a corner does not project.
 cv::Rect stationArea(const PoseReport& report) {
   const ImageView image = report.loaded->image.view();
   const cv::Rect whole(0, 0, image.width, image.height);
-  Camera camera = report.loaded->source.camera;
-  if (prepareCamera(camera) != Status::kOk) return whole;
   Eigen::AlignedBox2d box;
   for (const auto& corner : boxCorners(matchedBounds(report.loaded->scene.view()))) {
-    const auto place = predictPlace(camera, report.pose.camera_from_station, corner);
+    const PredictedPlace place = predicted(report, corner);
     if (!place.valid) return whole;
     box.extend(place.pixel);
   }
@@ -52,58 +55,52 @@ const IterationTrace* lastOf(const LocalizationTrace& trace, IterationKind kind)
   return found == trace.iterations.rend() ? nullptr : found->get();
 }
 
-ReportResiduals ofEdges(const PoseReport& report, const Camera& camera,
-                        const IterationTrace& iteration) {
-  ReportResiduals report_residuals{"edge points of the refinement", {}};
+ReportResiduals ofEdges(const PoseReport& report, const IterationTrace& iteration) {
+  ReportResiduals residuals{"edge points of the refinement", {}};
   for (const EdgeSample& sample : iteration.refinement.samples) {
-    const auto place =
-        predictPlace(camera, report.pose.camera_from_station, sample.point_in_station_m);
-    if (!place.valid || sample.gradient == 0.0) continue;
-    report_residuals.all.push_back(
-        {place.pixel, sample.residual_px * sample.normal(), sample.weight > 0.0});
+    const PredictedPlace place = predicted(report, sample.point_in_station_m);
+    if (place.valid && sample.gradient != 0.0)
+      residuals.all.push_back(
+          {place.pixel, sample.residual_px * sample.normal(), sample.weight > 0.0});
   }
-  return report_residuals;
+  return residuals;
 }
 
-ReportResiduals ofTemplates(const PoseReport& report, const Camera& camera,
-                            const IterationTrace& iteration) {
-  ReportResiduals report_residuals{"matched templates", {}};
+ReportResiduals ofTemplates(const PoseReport& report, const IterationTrace& iteration) {
+  ReportResiduals residuals{"matched templates", {}};
   for (std::size_t i = 0; i < iteration.correspondences.size(); ++i) {
     const Correspondence& correspondence = iteration.correspondences[i];
-    const auto place =
-        predictPlace(camera, report.pose.camera_from_station, correspondence.point_in_station_m);
+    const PredictedPlace place = predicted(report, correspondence.point_in_station_m);
     const bool inlier = i < iteration.pnp.inlier.size() && iteration.pnp.inlier[i] != 0;
     if (place.valid)
-      report_residuals.all.push_back({place.pixel, correspondence.pixel - place.pixel, inlier});
+      residuals.all.push_back({place.pixel, correspondence.pixel - place.pixel, inlier});
   }
-  return report_residuals;
+  return residuals;
 }
 
-ReportResiduals ofAnnotations(const PoseReport& report, const Camera& camera) {
-  ReportResiduals report_residuals{"annotations", {}};
+ReportResiduals ofAnnotations(const PoseReport& report) {
+  ReportResiduals residuals{"annotations", {}};
   const auto found = report.session->annotations.find(report.pose.case_id);
-  if (found == report.session->annotations.end()) return report_residuals;
+  if (found == report.session->annotations.end()) return residuals;
   for (const PointPair& point : found->second->points) {
-    if (!point.pixel || !point.point_in_station_m) continue;
-    const auto place =
-        predictPlace(camera, report.pose.camera_from_station, *point.point_in_station_m);
+    if (!point.complete()) continue;
+    const PredictedPlace place = predicted(report, *point.point_in_station_m);
     if (place.valid)
-      report_residuals.all.push_back({place.pixel, *point.pixel - place.pixel, point.enabled});
+      residuals.all.push_back({place.pixel, *point.pixel - place.pixel, point.enabled});
   }
-  return report_residuals;
+  return residuals;
 }
 
 }  // namespace
 
 ReportPicture overlayPicture(const PoseReport& report) {
-  Camera camera = report.loaded->source.camera;
-  if (prepareCamera(camera) != Status::kOk) return palePicture(report);
+  const LoadedCase& loaded = *report.loaded;
   std::vector<OverlayLayer> layers;
-  if (report.loaded->source.has_seed)
-    layers.push_back({"seed", report.loaded->source.camera_from_station_seed, kSeedColor, true});
+  if (loaded.source.has_seed)
+    layers.push_back({"seed", loaded.source.camera_from_station_seed, kSeedColor, true});
   layers.push_back({"pose", report.pose.camera_from_station, kResultColor, true});
   ColorImage drawn =
-      drawOverlay(report.loaded->image.view(), camera, report.loaded->scene.view(), layers);
+      drawOverlay(loaded.image.view(), loaded.source.camera, loaded.scene.view(), layers);
   return cut(cv::Mat(drawn.height, drawn.width, CV_8UC3, drawn.bgr.data()), stationArea(report));
 }
 
@@ -121,23 +118,21 @@ ReportPicture palePicture(const PoseReport& report) {
 double ReportResiduals::rms_px() const {
   double squares = 0.0;
   int count = 0;
-  for (const ReportResidual& report_residual : all) {
-    if (!report_residual.used) continue;
-    squares += report_residual.residual_px.squaredNorm();
+  for (const ReportResidual& residual : all) {
+    if (!residual.used) continue;
+    squares += residual.residual_px.squaredNorm();
     ++count;
   }
   return count > 0 ? std::sqrt(squares / count) : 0.0;
 }
 
 ReportResiduals reportResiduals(const PoseReport& report) {
-  Camera camera = report.loaded->source.camera;
-  if (prepareCamera(camera) != Status::kOk) return {};
-  if (report.pose.source == PoseSource::kAnnotation) return ofAnnotations(report, camera);
+  if (report.pose.source == PoseSource::kAnnotation) return ofAnnotations(report);
   if (!report.trace) return {};
   if (const auto* refined = lastOf(*report.trace, IterationKind::kRefine))
-    return ofEdges(report, camera, *refined);
+    return ofEdges(report, *refined);
   if (const auto* matched = lastOf(*report.trace, IterationKind::kMatch))
-    return ofTemplates(report, camera, *matched);
+    return ofTemplates(report, *matched);
   return {};
 }
 

@@ -13,7 +13,6 @@
 #include "sessions/run/image_quality.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/session/session_file.h"
-#include "sessions/trace/acceptance.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
@@ -212,11 +211,6 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
     json["iteration"].push_back(iterationJson(*iteration));
   json["provenance"] = provenanceJson(trace, provenance);
   return json;
-}
-
-void writeResult(const std::filesystem::path& file, const LocalizationTrace& trace,
-                 const std::optional<PoseError>& error, const RunProvenance& provenance) {
-  writeJsonFile(file, resultJson(trace, error, provenance));
 }
 
 }  // namespace boresight::sessions

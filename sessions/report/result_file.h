@@ -33,8 +33,4 @@ nlohmann::ordered_json resultJson(const LocalizationTrace& trace,
                                   const std::optional<PoseError>& error,
                                   const RunProvenance& provenance);
 
-/// The same into a file, atomically; OutputError.
-void writeResult(const std::filesystem::path& file, const LocalizationTrace& trace,
-                 const std::optional<PoseError>& error, const RunProvenance& provenance);
-
 }  // namespace boresight::sessions

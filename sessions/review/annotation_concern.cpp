@@ -13,15 +13,11 @@ namespace {
 constexpr double kMostNoise = 3.0;  ///< residuals in stated sigmas
 constexpr double kLeastWeight = 0.5;
 
-bool isDoubted(const SolvedAnnotation& annotation) {
-  return annotation.projected && annotation.weight < kLeastWeight;
-}
-
 std::vector<std::string> doubted(const CaseAnnotations& annotations,
                                  const AnnotationsSolution& solution) {
   std::vector<std::string> ids;
   for (const SolvedAnnotation& annotation : solution.annotations)
-    if (annotation.address.view == 0 && isDoubted(annotation))
+    if (annotation.address.view == 0 && annotation.projected && annotation.weight < kLeastWeight)
       ids.push_back(annotationId(annotations.views, annotation.address));
   return ids;
 }

@@ -52,10 +52,9 @@ void takeAnnotations(const Session& session, const SessionCase& session_case, Ha
 
 /// What was decided on, which is what its source gives.
 void takeDecision(const Decision& decision, HandedPose& pose) {
-  const Pose camera_from_station = pose.camera_from_station;
-  pose.camera_from_station = decision.pose->camera_from_station;
-  pose.covariance = decision.pose->covariance;
-  requireAsMeasured(pose.case_id, poseDifference(pose, camera_from_station));
+  const Pose found = pose.camera_from_station;
+  static_cast<JudgedPose&>(pose) = *decision.pose;
+  requireAsMeasured(pose.case_id, poseDifference(pose, found));
   pose.score = 1.0;
   pose.checks = decision.checks;
 }
@@ -140,66 +139,66 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
   return pose;
 }
 
-HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids) {
+HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids,
+                        const std::function<void(int done, int of)>& progress) {
   for (const std::string& id : case_ids) (void)knownCase(session, id);
-  HandedPoses handed_poses;
+  HandedPoses handed;
+  int done = 0;
   for (const auto& session_case : session.cases) {
-    const bool asked =
-        std::find(case_ids.begin(), case_ids.end(), session_case->id) != case_ids.end();
-    if (!case_ids.empty() && !asked) continue;
+    if (progress) progress(done++, static_cast<int>(session.cases.size()));
+    if (!case_ids.empty() && std::ranges::find(case_ids, session_case->id) == case_ids.end())
+      continue;
     try {
-      handed_poses.poses.push_back(handedPose(session, session_case->id));
+      handed.poses.push_back(handedPose(session, session_case->id));
     } catch (const InputError& error) {
-      handed_poses.notes.push_back(error.what());
+      handed.notes.push_back(error.what());
     }
   }
-  return handed_poses;
+  return handed;
 }
 
 CheckedPose checkedPose(const Session& session, const std::string& case_id) {
-  CheckedPose checked_pose;
-  checked_pose.pose = handedPose(session, case_id);
-  checked_pose.session = withPlans(sessionOfCase(session, case_id, checked_pose.pose.run_digest));
-  const ReviewStatus status = reviewStatusOf(checked_pose.session, case_id);
-  checked_pose.pose.review_status = reviewStatusText(status);  // of what is handed over
+  CheckedPose checked;
+  checked.pose = handedPose(session, case_id);
+  checked.session = withPlans(sessionOfCase(session, case_id, checked.pose.run_digest));
+  const ReviewStatus status = reviewStatusOf(checked.session, case_id);
+  checked.pose.review_status = reviewStatusText(status);  // of what is handed over
   const Decision* decision = status.judgedPose();
   const int convergence_seeds = decision != nullptr ? decision->convergence_seeds : 0;
-  MeasuredPose measured =
-      measurePose(checked_pose.session, checked_pose.pose, convergence_seeds, "session");
+  MeasuredPose measured = measurePose(checked.session, checked.pose, convergence_seeds, "session");
   if (decision == nullptr) {
-    checked_pose.pose.covariance = measured.subject.covariance;
-    for (const Check& check : measured.checks) checked_pose.pose.checks.push_back({check, ""});
+    checked.pose.covariance = measured.subject.covariance;
+    for (const Check& check : measured.checks) checked.pose.checks.push_back({check, ""});
   }
-  requireAsMeasured(case_id,
-                    poseDifference(checked_pose.pose, measured.subject.camera_from_station));
-  requireAsMeasured(case_id, covarianceDifference(checked_pose.pose, measured.subject.covariance));
-  requireAsMeasured(case_id, checksDifference(checked_pose.pose, measured.checks, true));
-  checked_pose.subject = std::move(measured.subject);
-  return checked_pose;
+  requireAsMeasured(case_id, poseDifference(checked.pose, measured.subject.camera_from_station));
+  requireAsMeasured(case_id, covarianceDifference(checked.pose, measured.subject.covariance));
+  requireAsMeasured(case_id, checksDifference(checked.pose, measured.checks, true));
+  checked.subject = std::move(measured.subject);
+  return checked;
 }
 
 Session sessionOfCase(const Session& session, const std::string& case_id,
                       const std::string& run_digest) {
   const std::vector<std::string> linked = casesOfRig(session, case_id);
   const auto isOther = [&](const std::string& id) {
-    return id != case_id && std::find(linked.begin(), linked.end(), id) == linked.end();
+    return id != case_id && std::ranges::find(linked, id) == linked.end();
   };
-  Session next_session = session;
-  next_session.cases.eraseIf([&](const auto& item) { return isOther(item->id); });
-  std::erase_if(next_session.annotations, [&](const auto& entry) { return isOther(entry.first); });
-  next_session.runs.eraseIf([&](const RunRecord& run) {
+  Session next = session;
+  next.cases.eraseIf([&](const auto& item) { return isOther(item->id); });
+  std::erase_if(next.annotations, [&](const auto& entry) { return isOther(entry.first); });
+  next.runs.eraseIf([&](const RunRecord& run) {
     if (isOther(run.case_id)) return true;
     if (run.case_id == case_id) return run.digest != run_digest;
     const RunRecord* asked = ownRunOf(session, run.case_id, case_id);
     return asked == nullptr || run != *asked;
   });
-  next_session.decisions.clear();
-  if (const Decision* last = session.decisionOn(case_id)) next_session.decisions.push_back(*last);
-  if (!next_session.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
-    next_session.decisions.front().checks.clear();
-  next_session.rounds.clear();
-  next_session.view = {};
-  return next_session;
+  next.decisions.clear();
+  if (const Decision* last = session.decisionOn(case_id)) next.decisions.push_back(*last);
+  if (!next.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
+    next.decisions.front().checks.clear();
+  next.rounds.clear();
+  next.view = {};
+  return next;
 }
 
 MeasuredPose measurePose(const Session& session, const HandedPose& pose, int convergence_seeds,
@@ -208,10 +207,9 @@ MeasuredPose measurePose(const Session& session, const HandedPose& pose, int con
   MeasuredPose measured;
   measured.subject = reviewSubject(session, loadCase(*session.findCase(pose.case_id)), pose.source,
                                    pose.run_digest, read_run);
-  std::optional<ConvergenceResult> convergence;
-  if (convergence_seeds > 0) convergence = convergenceTest(measured.subject, convergence_seeds);
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
-  measured.checks = checkPose(measured.subject, limits, convergence);
+  measured.checks =
+      checkPose(measured.subject, limits, convergenceTest(measured.subject, convergence_seeds));
   return measured;
 }
 

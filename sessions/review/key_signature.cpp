@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <optional>
 #include <system_error>
+#include <vector>
 
 #include "sessions/io/files/errors.h"
 
@@ -42,8 +43,7 @@ std::optional<int> runKeygen(const std::vector<std::string>& arguments, const fs
   return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
 }
 
-}  // namespace
-
+/// The signatures of a file: FILE.sig and FILE.*.sig next to it, by name.
 std::vector<fs::path> signatureFiles(const fs::path& file) {
   std::vector<fs::path> found;
   std::error_code error;
@@ -58,11 +58,13 @@ std::vector<fs::path> signatureFiles(const fs::path& file) {
   return found;
 }
 
+}  // namespace
+
 bool isSignedBy(const std::string& name, const fs::path& file, const fs::path& signers) {
   if (!fs::is_regular_file(signers)) throw InputError(signers, "no such file of allowed signers");
   for (const fs::path& signature : signatureFiles(file)) {
-    const auto status = runKeygen({"-Y", "verify", "-n", kSignatureNamespace, "-f",
-                                   signers.string(), "-I", name, "-s", signature.string()},
+    const auto status = runKeygen({"-Y", "verify", "-n", "boresight", "-f", signers.string(), "-I",
+                                   name, "-s", signature.string()},
                                   file);
     if (!status)
       throw InputError(signature, "cannot be checked: install ssh-keygen (package openssh-client)");

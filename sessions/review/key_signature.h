@@ -4,18 +4,12 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace boresight::sessions {
 
-/// `ssh-keygen -Y sign -n boresight -f KEY FILE` writes FILE.sig.
-inline constexpr const char* kSignatureNamespace = "boresight";
-
-/// The signatures of a file: FILE.sig and FILE.*.sig next to it, by name.
-std::vector<std::filesystem::path> signatureFiles(const std::filesystem::path& file);
-
-/// Whether `name` signed the file according to ssh-keygen(1): a signature of it verifies with a key
-/// that `signers` (its ALLOWED SIGNERS format) lists for this name. InputError when there is no
+/// Whether `name` signed the file (`ssh-keygen -Y sign -n boresight -f KEY FILE` writes FILE.sig;
+/// FILE.*.sig next to it count too) according to ssh-keygen(1): a signature of it verifies with a
+/// key that `signers` (its ALLOWED SIGNERS format) lists for this name. InputError when there is no
 /// such file, or no ssh-keygen.
 bool isSignedBy(const std::string& name, const std::filesystem::path& file,
                 const std::filesystem::path& signers);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -57,10 +56,10 @@ void takeRun(const ReviewSubject& subject, QueueRow& row) {
 }
 
 std::shared_ptr<const ReviewSubject> withoutData(const ReviewSubject& subject) {
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source = subject.loaded->source;
   auto result = std::make_shared<ReviewSubject>(subject);
-  auto source = std::make_shared<LoadedCase>();
-  source->source = subject.loaded->source;
-  result->loaded = std::move(source);
+  result->loaded = std::move(loaded);
   result->run->iterations.clear();
   result->run->edges.reset();
   return result;
@@ -105,13 +104,6 @@ double comparableMargin(const QueueRow& row) {
   return row.margin.value_or(row.failed > 0 ? -kInfinity : kInfinity);
 }
 
-std::string failedTitles(const QueueRow& row) {
-  std::string titles;
-  for (const Check& check : row.checks)
-    if (check.state == CheckState::kFailed) titles += (titles.empty() ? "" : ", ") + check.title;
-  return titles;
-}
-
 constexpr double kPercent = 100.0;
 
 std::string marginText(const QueueRow& row) {
@@ -120,15 +112,7 @@ std::string marginText(const QueueRow& row) {
 
 /// For programs: all digits that a double has, or nothing.
 std::string field(const std::optional<double>& value) {
-  if (!value || !std::isfinite(*value)) return "";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.9g", *value);
-  return text;
-}
-
-std::optional<double> part(const QueueRow& row, double SeedDistance::*member) {
-  if (!row.from_seed) return {};
-  return (*row.from_seed).*member;
+  return value && std::isfinite(*value) ? formatText("%.9g", *value) : "";
 }
 
 }  // namespace
@@ -137,16 +121,15 @@ SeedDistance seedDistance(const Pose& camera_from_station_seed, const Pose& came
                           const SeedUncertainty& uncertainty) {
   const Vector6d offset = offsetAboutPivot(camera_from_station_seed, camera_from_station,
                                            uncertainty.pivot_in_camera_m);
-  SeedDistance seed_distance;
-  seed_distance.rotation_mrad = kMilliradians * offset.head<3>().norm();
-  seed_distance.translation_mm = kMillimetres * offset.tail<3>().norm();
-  for (int i = 0; i < 3; ++i) {
-    const std::array parts{std::pair(std::abs(offset[i]), uncertainty.rotation_rad[i]),
-                           std::pair(std::abs(offset[i + 3]), uncertainty.translation_m[i])};
-    for (const auto& [moved, allowed] : parts)
-      if (allowed > 0.0) seed_distance.share = std::max(seed_distance.share, moved / allowed);
-  }
-  return seed_distance;
+  Vector6d allowed;
+  allowed << uncertainty.rotation_rad, uncertainty.translation_m;
+  SeedDistance distance;
+  distance.rotation_mrad = kMilliradians * offset.head<3>().norm();
+  distance.translation_mm = kMillimetres * offset.tail<3>().norm();
+  for (int i = 0; i < 6; ++i)
+    if (allowed[i] > 0.0)
+      distance.share = std::max(distance.share, std::abs(offset[i]) / allowed[i]);
+  return distance;
 }
 
 std::optional<double> checkMargin(const Check& check) {
@@ -222,9 +205,12 @@ std::string troubleText(const QueueRow& row) {
     return "not run in this session; in the results: error " +
            fixedText(100.0 * (1.0 - *row.margin), 0) + " % of the requirement";
   if (row.group == QueueGroup::kNotRun) return "not run yet";
-  if (row.failed > 0)
-    return std::to_string(row.failed) + (row.failed == 1 ? " check failed: " : " checks failed: ") +
-           failedTitles(row);
+  if (row.failed > 0) {
+    std::vector<std::string> failed;
+    for (const Check& check : row.checks)
+      if (check.state == CheckState::kFailed) failed.push_back(check.title);
+    return countText(row.failed, "check") + " failed: " + joined(failed);
+  }
   std::string text = std::to_string(row.passed) + " checks passed";
   if (row.margin) text += ", margin " + marginText(row) + ": " + row.margin_of;
   return text;
@@ -232,25 +218,25 @@ std::string troubleText(const QueueRow& row) {
 
 std::vector<QueueRow> queueRows(const Session& session, int jobs, const std::stop_token& stop,
                                 const QueueProgress& progress) {
-  std::vector<std::optional<QueueRow>> queue_rows(session.cases.size());
+  std::vector<std::optional<QueueRow>> found(session.cases.size());
   std::size_t done = 0;
   std::mutex mutex;
   std::exception_ptr fault;
   const auto work = [&](int task, int) {
     const auto i = static_cast<std::size_t>(task);
     try {
-      queue_rows[i] = queueRow(session, session.cases[i]->id);
+      found[i] = queueRow(session, session.cases[i]->id);
       const std::lock_guard lock(mutex);
-      if (progress) progress(*queue_rows[i], ++done, queue_rows.size());
+      if (progress) progress(*found[i], ++done, found.size());
     } catch (...) {
       const std::lock_guard lock(mutex);
       fault = std::current_exception();
     }
   };
-  WorkerPool(std::max(jobs, 1)).run(static_cast<int>(queue_rows.size()), work, stop);
+  WorkerPool(std::max(jobs, 1)).run(static_cast<int>(found.size()), work, stop);
   if (fault) std::rethrow_exception(fault);
   std::vector<QueueRow> rows;
-  for (std::optional<QueueRow>& row : queue_rows)
+  for (std::optional<QueueRow>& row : found)
     if (row) rows.push_back(std::move(*row));
   std::sort(rows.begin(), rows.end(), moreTrouble);
   return rows;
@@ -289,15 +275,16 @@ std::string queueCsv(const std::vector<QueueRow>& rows) {
       "case,state,checks_failed,checks_passed,margin,margin_of,from_seed_mm,from_seed_mrad,"
       "from_seed_share,inliers,iterations,look_at_iteration,run,trouble\r\n";
   for (const QueueRow& row : rows) {
+    const SeedDistance from = row.from_seed.value_or(SeedDistance{NAN, NAN, NAN});
     const std::string fields[] = {row.case_id,
                                   reviewStateText(row.review_state),
                                   std::to_string(row.failed),
                                   std::to_string(row.passed),
                                   field(row.margin),
                                   row.margin_of,
-                                  field(part(row, &SeedDistance::translation_mm)),
-                                  field(part(row, &SeedDistance::rotation_mrad)),
-                                  field(part(row, &SeedDistance::share)),
+                                  field(from.translation_mm),
+                                  field(from.rotation_mrad),
+                                  field(from.share),
                                   std::to_string(row.inliers),
                                   std::to_string(row.iterations),
                                   row.opens_at < 0 ? "" : std::to_string(row.opens_at + 1),

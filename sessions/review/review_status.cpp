@@ -125,13 +125,6 @@ const char* inputText(const std::string& name) {
   return found == kTexts.end() ? name.c_str() : found->second;
 }
 
-std::string listText(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
-}
-
 /// A name without case and blanks.
 std::string comparableName(const std::string& name) {
   std::string plain = lowerCase(name);
@@ -147,42 +140,38 @@ Signature requireSigned(const Signature& who, const char* what) {
   return plain;
 }
 
-const SessionCase& requireCase(const Session& session, const std::string& case_id) {
-  const SessionCase* session_case = session.findCase(case_id);
-  if (session_case == nullptr) throw DecisionError("there is no case '" + case_id + "'");
-  return *session_case;
+void requireCase(const Session& session, const std::string& case_id) {
+  if (session.findCase(case_id) == nullptr)
+    throw DecisionError("there is no case '" + case_id + "'");
 }
 
-/// Pairs each check with the reason for passing over it.
+/// Pairs each check with the reason to waive it.
 std::vector<JudgedCheck> judgedChecks(const std::vector<Check>& checks,
                                       const CheckWaivers& waivers) {
   std::vector<JudgedCheck> judged;
   for (const Check& check : checks) {
     const auto found = waivers.find(check.id);
-    const bool failed = check.state == CheckState::kFailed;
-    const bool answered = failed && found != waivers.end();
-    judged.push_back({check, std::string(answered ? trimmed(found->second) : "")});
+    const bool waived = check.state == CheckState::kFailed && found != waivers.end();
+    judged.push_back({check, std::string(waived ? trimmed(found->second) : "")});
   }
   return judged;
 }
 
 void requireAnswered(const std::vector<JudgedCheck>& checks) {
-  if (std::none_of(checks.begin(), checks.end(), [](const JudgedCheck& judged) {
-        return judged.check.state != CheckState::kNotApplicable;
-      }))
-    throw DecisionError("this pose has not been checked");
-  std::string open;
-  for (const JudgedCheck& judged : checks)
-    if (judged.check.state == CheckState::kFailed && judged.waiver_reason.empty())
-      open += (open.empty() ? "" : ", ") + judged.check.title;
-  if (!open.empty()) throw DecisionError("failed checks are not waived: " + open);
+  bool checked = false;
+  std::vector<std::string> open;
+  for (const auto& [check, waiver_reason] : checks) {
+    checked |= check.state != CheckState::kNotApplicable;
+    if (check.state == CheckState::kFailed && waiver_reason.empty()) open.push_back(check.title);
+  }
+  if (!checked) throw DecisionError("this pose has not been checked");
+  if (!open.empty()) throw DecisionError("failed checks are not waived: " + joined(open));
 }
 
 /// DecisionError for a waiver of a check that does not exist or has not failed.
 void requireKnownWaivers(const std::vector<Check>& checks, const CheckWaivers& waivers) {
   for (const auto& [id, reason] : waivers) {
-    const auto found = std::find_if(checks.begin(), checks.end(),
-                                    [&id = id](const Check& check) { return check.id == id; });
+    const auto found = std::ranges::find(checks, id, &Check::id);
     if (found == checks.end()) throw DecisionError("there is no check '" + id + "'");
     if (found->state != CheckState::kFailed)
       throw DecisionError("the check '" + found->title + "' has not failed and needs no waiver");
@@ -192,13 +181,7 @@ void requireKnownWaivers(const std::vector<Check>& checks, const CheckWaivers& w
 }
 
 Decision newDecision(const std::string& case_id, Verdict verdict, const Signature& who) {
-  Decision decision;
-  decision.case_id = case_id;
-  decision.verdict = verdict;
-  decision.by = who.by;
-  decision.comment = who.comment;
-  decision.time = utcNowText();
-  return decision;
+  return {case_id, verdict, who.by, who.comment, utcNowText(), {}};
 }
 
 Session withDecision(const Session& session, Decision decision) {
@@ -329,7 +312,7 @@ Session validated(const Session& session, const ReviewSubject& subject,
   decision.convergence_seeds = convergence_seeds;
   requireAnswered(decision.checks);
   if (subject.run) decision.digest = subject.run->digest;
-  decision.pose = JudgedPose{subject.source, subject.camera_from_station, subject.covariance};
+  decision.pose = subject;
   decision.input_fingerprint = inputFingerprint(session, id, decision.digest);
   return withDecision(session, std::move(decision));
 }

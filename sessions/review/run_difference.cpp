@@ -2,7 +2,6 @@
 #include "sessions/review/run_difference.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
@@ -31,14 +30,13 @@ struct ReadRun {
 
 ReadRun readRun(const Session& session, const std::string& digest,
                 const std::shared_ptr<const LoadedCase>& loaded) {
-  ReadRun read_run;
-  read_run.record = findRun(session, loaded->source.id, digest);
-  if (read_run.record == nullptr)
+  ReadRun run;
+  run.record = findRun(session, loaded->source.id, digest);
+  if (run.record == nullptr)
     throw std::invalid_argument("case " + loaded->source.id + " has no run with digest " + digest);
-  read_run.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
-  read_run.checks =
-      checkPose(read_run.subject, checkLimits(session.review.preset, session.review.limits));
-  return read_run;
+  run.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
+  run.checks = checkPose(run.subject, checkLimits(session.review.preset, session.review.limits));
+  return run;
 }
 
 void takeError(const ReviewSubject& subject, RunSide& side) {
@@ -70,8 +68,7 @@ std::vector<CheckChange> changedChecks(const std::vector<Check>& before,
                                        const std::vector<Check>& after) {
   std::vector<CheckChange> changed;
   for (const Check& check : before) {
-    const auto found = std::find_if(after.begin(), after.end(),
-                                    [&](const Check& other) { return other.id == check.id; });
+    const auto found = std::ranges::find(after, check.id, &Check::id);
     if (found != after.end() && found->state != check.state)
       changed.push_back({check.title, check.state, found->state});
   }
@@ -100,8 +97,7 @@ std::string truthText(const RunSide& side) {
 std::string checksText(const RunSide& side) {
   if (!side.converged) return "the run failed";
   if (side.checks_failed == 0) return "all checks passed";
-  return std::to_string(side.checks_failed) +
-         (side.checks_failed == 1 ? " check failed" : " checks failed");
+  return countText(side.checks_failed, "check") + " failed";
 }
 
 RunChange changeOf(double before, double after) {
@@ -109,20 +105,20 @@ RunChange changeOf(double before, double after) {
   return after > before ? RunChange::kWorse : RunChange::kSame;
 }
 
-RunChange judgedByTruth(const RunDifference& run_difference) {
-  const int before = rankByTruth(run_difference.before);
-  const int after = rankByTruth(run_difference.after);
+RunChange judgedByTruth(const RunDifference& difference) {
+  const int before = rankByTruth(difference.before);
+  const int after = rankByTruth(difference.after);
   if (before != after || before != 2) return changeOf(before, after);
-  const double nearer = *run_difference.before.error_share - *run_difference.after.error_share;
+  const double nearer = *difference.before.error_share - *difference.after.error_share;
   if (std::abs(nearer) < kTelling) return RunChange::kSame;
   return nearer > 0.0 ? RunChange::kBetter : RunChange::kWorse;
 }
 
-RunChange judgedByChecks(const RunDifference& run_difference) {
+RunChange judgedByChecks(const RunDifference& difference) {
   const auto rank = [](const RunSide& side) {
     return side.converged ? static_cast<double>(side.checks_failed) : 1e9;
   };
-  return changeOf(rank(run_difference.before), rank(run_difference.after));
+  return changeOf(rank(difference.before), rank(difference.after));
 }
 
 std::string errorText(const RunSide& side) {
@@ -140,10 +136,16 @@ std::string checkText(const RunSide& side) {
          " failed";
 }
 
-std::string sentence(std::string clause) {
-  if (!clause.empty())
-    clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
-  return clause + ".";
+/// "pnp.min_inliers 12 -> 100"; more than three are counted.
+std::string optionChangesText(std::span<const OptionChangeText> changes) {
+  constexpr std::size_t kMostNamed = 3;
+  const std::size_t named = changes.size() <= kMostNamed ? changes.size() : kMostNamed - 1;
+  std::vector<std::string> texts;
+  for (const auto& [name, before, after] : changes.first(named))
+    texts.push_back(name + " " + before + " -> " + after);
+  return joined(texts) + (named < changes.size()
+                              ? " and " + std::to_string(changes.size() - named) + " other options"
+                              : "");
 }
 
 }  // namespace
@@ -158,17 +160,6 @@ std::vector<OptionChangeText> optionChanges(const LocalizerOptions& before,
       changed.push_back({value[i].name, valueText(value[i], value[i].value),
                          valueText(other[i], other[i].value)});
   return changed;
-}
-
-std::string optionChangesText(std::span<const OptionChangeText> changes) {
-  constexpr std::size_t kMostNamed = 3;
-  const std::size_t named = changes.size() <= kMostNamed ? changes.size() : kMostNamed - 1;
-  std::string text;
-  for (const OptionChangeText& change : changes.first(named))
-    text += (text.empty() ? "" : ", ") + change.name + " " + change.before + " -> " + change.after;
-  if (named < changes.size())
-    text += " and " + std::to_string(changes.size() - named) + " other options";
-  return text;
 }
 
 PoseDistance poseDistance(const LoadedCase& loaded, const Pose& camera_from_station,
@@ -225,18 +216,18 @@ std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& ca
   return pair.before ? std::optional(pair) : std::nullopt;
 }
 
-void judgeChange(RunDifference& run_difference) {
-  const bool truth = run_difference.before.error_share || run_difference.after.error_share;
-  const std::string before =
-      truth ? truthText(run_difference.before) : checksText(run_difference.before);
-  const std::string after =
-      truth ? truthText(run_difference.after) : checksText(run_difference.after);
-  run_difference.change = truth ? judgedByTruth(run_difference) : judgedByChecks(run_difference);
-  if (run_difference.before.digest == run_difference.after.digest)
-    run_difference.why = "bit for bit";
+void judgeChange(RunDifference& difference) {
+  const bool truth = difference.before.error_share || difference.after.error_share;
+  const auto text = [truth](const RunSide& side) {
+    return truth ? truthText(side) : checksText(side);
+  };
+  const std::string before = text(difference.before);
+  const std::string after = text(difference.after);
+  difference.change = truth ? judgedByTruth(difference) : judgedByChecks(difference);
+  if (difference.before.digest == difference.after.digest)
+    difference.why = "bit for bit";
   else
-    run_difference.why =
-        before == after ? after + " before and now" : before + " before, now " + after;
+    difference.why = before == after ? after + " before and now" : before + " before, now " + after;
 }
 
 RunDifference compareRuns(const Session& session, const std::string& before_digest,
@@ -244,54 +235,53 @@ RunDifference compareRuns(const Session& session, const std::string& before_dige
                           std::shared_ptr<const LoadedCase> loaded) {
   const ReadRun before = readRun(session, before_digest, loaded);
   const ReadRun after = readRun(session, after_digest, loaded);
-  RunDifference run_difference;
-  run_difference.case_id = loaded->source.id;
-  run_difference.before = sideOf(before);
-  run_difference.after = sideOf(after);
-  run_difference.inputs_differ = before.record->inputs_sha256 != after.record->inputs_sha256;
-  run_difference.options = optionChanges(before.subject.run->options, after.subject.run->options);
-  run_difference.checks = changedChecks(before.checks, after.checks);
-  run_difference.comparison = compareRecords(recordOfRun(before), recordOfRun(after));
-  judgeChange(run_difference);
-  return run_difference;
+  RunDifference difference;
+  difference.case_id = loaded->source.id;
+  difference.before = sideOf(before);
+  difference.after = sideOf(after);
+  difference.inputs_differ = before.record->inputs_sha256 != after.record->inputs_sha256;
+  difference.options = optionChanges(before.subject.run->options, after.subject.run->options);
+  difference.checks = changedChecks(before.checks, after.checks);
+  difference.comparison = compareRecords(recordOfRun(before), recordOfRun(after));
+  judgeChange(difference);
+  return difference;
 }
 
-std::vector<DifferenceLine> differenceLines(const RunDifference& run_difference) {
+std::vector<DifferenceLine> differenceLines(const RunDifference& difference) {
   std::vector<DifferenceLine> lines = {
-      {"Status", endText(run_difference.before), endText(run_difference.after)},
-      {"Inliers", std::to_string(run_difference.before.inliers),
-       std::to_string(run_difference.after.inliers)},
-      {"Checks", checkText(run_difference.before), checkText(run_difference.after)}};
-  if (run_difference.before.error || run_difference.after.error)
-    lines.push_back({"Error: along, across, rotation", errorText(run_difference.before),
-                     errorText(run_difference.after)});
-  for (const CheckChange& check : run_difference.checks)
+      {"Status", endText(difference.before), endText(difference.after)},
+      {"Inliers", std::to_string(difference.before.inliers),
+       std::to_string(difference.after.inliers)},
+      {"Checks", checkText(difference.before), checkText(difference.after)}};
+  if (difference.before.error || difference.after.error)
+    lines.push_back({"Error: along, across, rotation", errorText(difference.before),
+                     errorText(difference.after)});
+  for (const CheckChange& check : difference.checks)
     lines.push_back({check.title, checkStateText(check.before), checkStateText(check.after)});
-  for (const OptionChangeText& option : run_difference.options)
+  for (const OptionChangeText& option : difference.options)
     lines.push_back({option.name, option.before, option.after});
   return lines;
 }
 
-std::string changeText(const RunDifference& run_difference) {
+std::string changeText(const RunDifference& difference) {
   std::string text =
-      sentence(std::string(runChangeText(run_difference.change)) + ": " + run_difference.why);
-  if (run_difference.inputs_differ) text += " The inputs of the runs differ.";
-  if (run_difference.comparison.first)
-    text +=
-        " First difference: " + std::string(runPartText(run_difference.comparison.first->part)) +
-        ": " + run_difference.comparison.first->text + ".";
+      asSentence(std::string(runChangeText(difference.change)) + ": " + difference.why);
+  if (difference.inputs_differ) text += " The inputs of the runs differ.";
+  if (difference.comparison.first)
+    text += " First difference: " + std::string(runPartText(difference.comparison.first->part)) +
+            ": " + difference.comparison.first->text + ".";
   return text;
 }
 
-std::string differenceText(const RunDifference& run_difference) {
-  TextTable table({run_difference.case_id, "before", "now"});
-  for (const DifferenceLine& line : differenceLines(run_difference))
+std::string differenceText(const RunDifference& difference) {
+  TextTable table({difference.case_id, "before", "now"});
+  for (const DifferenceLine& line : differenceLines(difference))
     table.add({line.label, line.before, line.after});
   std::string apart;
-  if (run_difference.before.converged && run_difference.after.converged)
-    apart = "Final poses " + fixedText(run_difference.comparison.translation_mm, 3) + " mm and " +
-            fixedText(run_difference.comparison.rotation_mrad, 3) + " mrad apart at the camera.\n";
-  return table.text() + apart + plainLine(changeText(run_difference));
+  if (difference.before.converged && difference.after.converged)
+    apart = "Final poses " + fixedText(difference.comparison.translation_mm, 3) + " mm and " +
+            fixedText(difference.comparison.rotation_mrad, 3) + " mrad apart at the camera.\n";
+  return table.text() + apart + plainLine(changeText(difference));
 }
 
 }  // namespace boresight::sessions

@@ -52,8 +52,6 @@ struct OptionChangeText {
 /// Of the options in force at the end of two runs, in their order.
 std::vector<OptionChangeText> optionChanges(const LocalizerOptions& before,
                                             const LocalizerOptions& after);
-/// "pnp.min_inliers 12 -> 100"; more than three are counted.
-std::string optionChangesText(std::span<const OptionChangeText> changes);
 
 /// Distance between two poses of a case.
 struct PoseDistance {

@@ -91,12 +91,4 @@ ColorImage stationPicture(const ImageView& image, Camera camera, const MeshView&
   return drawOverlay(view, scaled, mesh, layers);
 }
 
-ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const MeshView& mesh,
-                         const Pose& camera_from_station, int width_px, int height_px,
-                         const ColorBgr& color) {
-  const OverlayLayer layer{"", camera_from_station, color, true};
-  return stationPicture(image, camera, mesh, {&camera_from_station, 1}, {&layer, 1}, width_px,
-                        height_px);
-}
-
 }  // namespace boresight::sessions

@@ -7,15 +7,10 @@
 
 namespace boresight::sessions {
 
-/// A small picture of a pose: the part of the image that holds the station, with the station's
-/// edges from that pose. The core renders them at the picture's own resolution, so that they stay
-/// sharp. The whole image when the station is not visible. The sizes are at least 8 px.
-ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const MeshView& mesh,
-                         const Pose& camera_from_station, int width_px, int height_px,
-                         const ColorBgr& color = kResultColor);
-
-/// The same with the edges of several poses; the picture shows the part that holds the station in
-/// each of the poses `framed`. Prepares the camera itself.
+/// A small picture of poses: the part of the image that holds the station in each of the poses
+/// `framed`, with the station's edges as layers. The core renders them at the picture's own
+/// resolution, so that they stay sharp. The whole image when the station is not visible. The sizes
+/// are at least 8 px. Prepares the camera itself.
 ColorImage stationPicture(const ImageView& image, Camera camera, const MeshView& mesh,
                           std::span<const Pose> framed, std::span<const OverlayLayer> layers,
                           int width_px, int height_px);

@@ -17,12 +17,13 @@
 #include "sessions/io/json/json_writer.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/session/session_file.h"
+#include "sessions/session/stated_inputs.h"
 #include "sessions/version.h"
 
 #include "sessions/text/utc_time.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -87,11 +88,11 @@ ordered_json poseJson(const HandedPose& pose, const SessionCase& session_case) {
 }
 
 ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& session_case) {
-  const EndEffectorPose end_effector_pose =
+  const EndEffectorPose effector =
       endEffectorPose(session_case, pose.camera_from_station, pose.covariance.total());
-  const Pose& correction = end_effector_pose.end_effector_seed_from_end_effector_estimated;
+  const Pose& correction = effector.end_effector_seed_from_end_effector_estimated;
   ordered_json json;
-  json["station_from_end_effector"] = toJson(end_effector_pose.station_from_end_effector);
+  json["station_from_end_effector"] = toJson(effector.station_from_end_effector);
   json["end_effector_seed_from_end_effector_estimated"] = toJson(correction);
   json["correction_translation_m"] = toJson(correction.translation_m);
   json["correction_rotation_deg"] =
@@ -99,7 +100,7 @@ ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& session_
   if (pose.covariance.known()) {
     json["correction_to_command"] =
         toJson(correctionsOf(session_case, pose.camera_from_station, pose.covariance.total()));
-    json["covariance"] = toJson(end_effector_pose.covariance);
+    json["covariance"] = toJson(effector.covariance);
     json["covariance_is_of"] =
         "(rotation rad, translation m), right perturbation in the end effector's frame";
   }
@@ -170,7 +171,7 @@ ordered_json pixelJson(const Eigen::Vector2d& pixel) {
 ordered_json matchesJson(const LocalizationTrace& run) {
   const auto last =
       std::find_if(run.iterations.rbegin(), run.iterations.rend(),
-                   [](const auto& item) { return item->kind == IterationKind::kMatch; });
+                   [](const auto& each) { return each->kind == IterationKind::kMatch; });
   ordered_json list = ordered_json::array();
   if (last == run.iterations.rend()) return list;
   const IterationTrace& iteration = **last;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,11 +20,8 @@ namespace boresight::sessions {
 inline constexpr int kValidatedPoseVersion = 1;
 
 /// The pose that is handed over for a case, and its review status.
-struct HandedPose {
+struct HandedPose : JudgedPose {
   std::string case_id;
-  PoseSource source = PoseSource::kRun;
-  Pose camera_from_station;
-  PoseCovariance covariance;
   std::string run_digest;  ///< empty: the pose is from annotations
   bool validated = false;
   std::string review_status;  ///< reviewStatusText: who validated it, or NOT VALIDATED and why
@@ -43,7 +41,9 @@ struct HandedPoses {
   std::vector<std::string> notes;  ///< cases without a pose
 };
 /// The same for several cases (all when none is named), in the order of the session.
-HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids);
+/// `progress` is called with the number of cases so far and of the session.
+HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids,
+                        const std::function<void(int done, int of)>& progress = {});
 
 struct MeasuredPose {
   ReviewSubject subject;      ///< pose, covariance and run

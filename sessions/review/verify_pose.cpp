@@ -15,6 +15,8 @@
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -73,15 +75,20 @@ Document readDocument(const fs::path& file) {
 
 using Findings = std::vector<VerifyFinding>;
 
+/// Good when nothing is `wrong`.
+void note(Findings& findings, const char* what, const std::string& wrong, const std::string& good) {
+  findings.push_back({wrong.empty(), what, wrong.empty() ? good : wrong});
+}
+
 void verifySignature(const Document& document, Findings& findings) {
   const auto stated = document.json.find("signature");
   const bool good = stated != document.json.end() && *stated == signatureOf(document.json);
-  findings.push_back({good, "signature",
-                      good ? "the document is unchanged since it was signed"
-                           : "the document was changed since it was signed, or was never signed"});
+  note(findings, "signature",
+       good ? "" : "the document was changed since it was signed, or was never signed",
+       "the document is unchanged since it was signed");
 }
 
-/// Those who decided have signed the file with their own keys.
+/// Whether the deciders signed the file with their own keys.
 void verifyKeys(const Document& document, const fs::path& signers, Findings& findings) {
   const Decision* decision = document.session.decisionOn(document.pose.case_id);
   if (decision == nullptr) return;
@@ -89,10 +96,11 @@ void verifyKeys(const Document& document, const fs::path& signers, Findings& fin
   if (decision->approval) names.push_back(decision->approval->by);
   for (const std::string& name : names) {
     const bool good = isSignedBy(name, document.file, signers);
-    findings.push_back({good, "key",
-                        good ? name + " signed the file"
-                             : "no signature of " + name + " with a key that " +
-                                   signers.filename().string() + " lists for this name"});
+    note(findings, "key",
+         good ? ""
+              : "no signature of " + name + " with a key that " + signers.filename().string() +
+                    " lists for this name",
+         name + " signed the file");
   }
 }
 
@@ -110,10 +118,7 @@ bool verifyInputs(const Document& document, Findings& findings) {
 
 /// Whether the decision inside is one that this program would have let pass.
 void verifyDecision(const ReviewStatus& status, Findings& findings) {
-  if (status.decision == nullptr) {
-    findings.push_back({true, "decision", "there is no decision"});
-    return;
-  }
+  if (status.decision == nullptr) return note(findings, "decision", "", "there is no decision");
   const Decision& decision = *status.decision;
   std::string wrong = status.dropped.empty() ? "" : "it no longer holds: " + status.dropped;
   for (const JudgedCheck& judged : decision.checks)
@@ -124,28 +129,23 @@ void verifyDecision(const ReviewStatus& status, Findings& findings) {
     wrong = "it has no checks";
   if (decision.approval && samePerson(decision.approval->by, decision.by))
     wrong = decision.by + " both validated and approved";
-  findings.push_back(
-      {wrong.empty(), "decision", wrong.empty() ? "it follows from the document" : wrong});
+  note(findings, "decision", wrong, "it follows from the document");
 }
 
 void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_convergence,
                     Findings& findings) {
-  const auto add = [&findings](const std::string& what, const std::string& wrong,
-                               const std::string& good) {
-    findings.push_back({wrong.empty(), what, wrong.empty() ? good : wrong});
-  };
   if (document.pose.source == PoseSource::kRun) {
     const auto& together = document.session.lastRunOf(document.pose.case_id)->together;
-    add("run", validationConcern(document.session, measured.subject),
-        "the run" + (together ? " " + togetherText(together->views, document.pose.case_id) : "") +
-            " gives the same digest");
+    note(findings, "run", validationConcern(document.session, measured.subject),
+         "the run" + (together ? " " + togetherText(together->views, document.pose.case_id) : "") +
+             " gives the same digest");
   }
-  add("pose", poseDifference(document.pose, measured.subject.camera_from_station),
-      "the measured pose is the same");
-  add("covariance", covarianceDifference(document.pose, measured.subject.covariance),
-      "the measured covariance is the same");
-  add("checks", checksDifference(document.pose, measured.checks, with_convergence),
-      "measured again, they are the same");
+  note(findings, "pose", poseDifference(document.pose, measured.subject.camera_from_station),
+       "the measured pose is the same");
+  note(findings, "covariance", covarianceDifference(document.pose, measured.subject.covariance),
+       "the measured covariance is the same");
+  note(findings, "checks", checksDifference(document.pose, measured.checks, with_convergence),
+       "measured again, they are the same");
 }
 
 /// Nothing when it cannot be measured, which is then found wrong.
@@ -165,18 +165,15 @@ void verifyMembers(const Document& document, const std::optional<MeasuredPose>& 
   const auto run = measured ? measured->subject.run : std::nullopt;
   const ordered_json remeasured = ordered_json::parse(
       prettyJson(validatedPoseJson(document.session, document.pose, run, document.file)));
-  std::string wrong;
+  std::vector<std::string> wrong;
   for (const auto& [name, value] : remeasured.items()) {
     if (name == "written" || name == "signature") continue;
-    if (!document.json.contains(name) || document.json[name] != value)
-      wrong += (wrong.empty() ? "" : ", ") + name;
+    if (!document.json.contains(name) || document.json[name] != value) wrong.push_back(name);
   }
   for (const auto& [name, value] : document.json.items())
-    if (!remeasured.contains(name) && (measured || name != "run"))
-      wrong += (wrong.empty() ? "" : ", ") + name;
-  findings.push_back(
-      {wrong.empty(), "contents",
-       wrong.empty() ? "the members are consistent" : "inconsistent members: " + wrong});
+    if (!remeasured.contains(name) && (measured || name != "run")) wrong.push_back(name);
+  note(findings, "contents", wrong.empty() ? "" : "inconsistent members: " + joined(wrong),
+       "the members are consistent");
 }
 
 /// The run of a pose that has one, and what the document says of it.
@@ -194,9 +191,7 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
   pose.validated = status.state == ReviewState::kValidated;
   pose.review_status = reviewStatusText(status);
   if (const Decision* decision = status.judgedPose()) {
-    pose.source = decision->pose->source;
-    pose.camera_from_station = decision->pose->camera_from_station;
-    pose.covariance = decision->pose->covariance;
+    static_cast<JudgedPose&>(pose) = *decision->pose;
     pose.checks = decision->checks;
   }
   if (const RunRecord* run = document.session.lastRunOf(pose.case_id);
@@ -226,10 +221,7 @@ void listNotProved(const Decision* decision, bool measured, bool with_convergenc
 
 }  // namespace
 
-bool VerifyReport::good() const {
-  return std::all_of(findings.begin(), findings.end(),
-                     [](const VerifyFinding& verify_finding) { return verify_finding.good; });
-}
+bool VerifyReport::good() const { return std::ranges::all_of(findings, &VerifyFinding::good); }
 
 VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again,
                         const VerifyPlaces& places) {
@@ -256,8 +248,8 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_a
   if (run_again && inputs) measured = measureAgain(document, convergence_seeds, findings);
   if (measured) verifyMeasured(document, *measured, with_convergence, findings);
   verifyMembers(document, measured, findings);
-  listNotProved(status.decision, measured.has_value(), with_convergence,
-                places.signers.has_value(), report.not_proved);
+  listNotProved(status.decision, measured.has_value(), with_convergence, places.signers.has_value(),
+                report.not_proved);
   return report;
 }
 

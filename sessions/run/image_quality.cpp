@@ -117,14 +117,15 @@ PixelRegion stationRegion(const Camera& camera, const MeshView& mesh,
                                   Eigen::Vector2d(camera.width - 1, camera.height - 1));
   const Eigen::AlignedBox2d seen = box.intersection(image);
   if (seen.isEmpty()) return {};
-  return {static_cast<int>(seen.min().x()), static_cast<int>(seen.min().y()),
-          static_cast<int>(std::ceil(seen.max().x())), static_cast<int>(std::ceil(seen.max().y()))};
+  return {seen.min().cast<int>(), seen.max().array().ceil().matrix().cast<int>()};
 }
 
 std::optional<ImageQuality> measureImageQuality(const ImageView& image, const BitImage* ignore,
                                                 const PixelRegion& region) {
-  const cv::Rect box = cv::Rect(region.x_min, region.y_min, region.x_max - region.x_min + 1,
-                                region.y_max - region.y_min + 1) &
+  if (region.isEmpty()) return std::nullopt;
+  const Eigen::Vector2i corner = region.min();
+  const Eigen::Vector2i size = region.sizes() + Eigen::Vector2i::Ones();
+  const cv::Rect box = cv::Rect(corner.x(), corner.y(), size.x(), size.y()) &
                        cv::Rect(0, 0, image.width, image.height);
   if (box.width < 3 || box.height < 3) return std::nullopt;
   cv::Mat1b gray(box.size());

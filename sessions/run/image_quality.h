@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "core/base/image.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
@@ -37,13 +39,8 @@ inline constexpr std::pair<const char*, double ImageQuality::*> kImageQualityPar
     {"black_share", &ImageQuality::black_share},
     {"image_edge_width_px", &ImageQuality::edge_width_px}};
 
-/// Pixels of an image, all bounds included; empty when x_max < x_min or y_max < y_min.
-struct PixelRegion {
-  int x_min = 0;
-  int y_min = 0;
-  int x_max = -1;
-  int y_max = -1;
-};
+/// Pixels of an image, both corners included.
+using PixelRegion = Eigen::AlignedBox2i;
 
 /// The bounding box of the matched parts' projection, within the image.
 PixelRegion stationRegion(const Camera& camera, const MeshView& mesh,

@@ -84,15 +84,15 @@ OutsideMatching::OutsideMatching(Localizer& localizer, MatchingMethod& method,
   method_.begin(stop);
 }
 
-const OutsideMatching::Picture& OutsideMatching::imageAt(int level) {
-  Picture& picture = images_[static_cast<std::size_t>(level)];
-  if (!picture.gray.empty()) return picture;
+ImageView OutsideMatching::imageAt(int level) {
   const ImageView& image = localizer_.problem().image;
-  picture.width = ((image.width - 1) >> level) + 1;
-  picture.height = ((image.height - 1) >> level) + 1;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) picture.gray.push_back(pooled(image, x, y, level));
-  return picture;
+  const int width = ((image.width - 1) >> level) + 1;
+  const int height = ((image.height - 1) >> level) + 1;
+  std::vector<std::uint8_t>& gray = images_[static_cast<std::size_t>(level)];
+  if (gray.empty())
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) gray.push_back(pooled(image, x, y, level));
+  return {gray.data(), width, height, width};
 }
 
 void OutsideMatching::shadeByAlbedo(std::size_t pixels) {
@@ -114,7 +114,7 @@ void OutsideMatching::serve() {
     shadeByAlbedo(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
   const MatchQuery query{iteration,
                          localizer_.options(),
-                         imageAt(iteration.level).view(),
+                         imageAt(iteration.level),
                          {intensity_.data(), camera.width, camera.height, camera.width},
                          depth_m_,
                          localizer_.problem().ignore};

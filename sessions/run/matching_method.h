@@ -74,12 +74,7 @@ class OutsideMatching {
   void serve();
 
  private:
-  struct Picture {
-    std::vector<std::uint8_t> gray;
-    int width = 0, height = 0;
-    ImageView view() const { return {gray.data(), width, height, width}; }
-  };
-  const Picture& imageAt(int level);
+  ImageView imageAt(int level);
   void shadeByAlbedo(std::size_t pixels);
 
   Localizer& localizer_;
@@ -88,7 +83,8 @@ class OutsideMatching {
   std::vector<float> depth_m_;
   std::vector<double> relative_albedo_;  ///< of each part, the brightest is 1; empty: all alike
   std::vector<std::int32_t> face_;       ///< empty with relative_albedo_
-  std::array<Picture, kPyramidLevels> images_;
+  /// Pooled images by level; empty until they are needed.
+  std::array<std::vector<std::uint8_t>, kPyramidLevels> images_;
   std::vector<SuppliedMatch> found_;
 };
 

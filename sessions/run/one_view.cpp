@@ -13,22 +13,6 @@
 namespace boresight::sessions {
 namespace {
 
-/// The trace of a run before its first step.
-LocalizationTrace beginningOf(const LocalizationProblem& problem, const RunPlan& plan,
-                              const RunSettings& settings) {
-  LocalizationTrace trace;
-  trace.version = kVersion;
-  trace.options = plan.options;
-  trace.changes = plan.changes;
-  trace.camera = problem.camera;
-  trace.camera_from_station_seed = problem.camera_from_station_seed;
-  trace.camera_from_station = problem.camera_from_station_seed;
-  trace.uncertainty = problem.uncertainty;
-  trace.memory.inputs = inputBytes(problem);
-  trace.memory.limit = settings.memory_limit;
-  return trace;
-}
-
 /// kOk when the run can begin; fills the trace's use of memory.
 Status sizeRun(const LocalizationProblem& problem, const RunPlan& plan, const RunSettings& settings,
                MemoryTrace& memory) {
@@ -120,7 +104,16 @@ class OneView final : public SteppedRun {
 
  private:
   void begin(const LocalizationProblem& problem) {
-    LocalizationTrace& trace = traces.emplace_back(beginningOf(problem, plan_, settings_));
+    LocalizationTrace& trace = traces.emplace_back();
+    trace.version = kVersion;
+    trace.options = plan_.options;
+    trace.changes = plan_.changes;
+    trace.camera = problem.camera;
+    trace.camera_from_station_seed = problem.camera_from_station_seed;
+    trace.camera_from_station = problem.camera_from_station_seed;
+    trace.uncertainty = problem.uncertainty;
+    trace.memory.inputs = inputBytes(problem);
+    trace.memory.limit = settings_.memory_limit;
     Status status = sizeRun(problem, plan_, settings_, trace.memory);
     if (status == Status::kOk) status = placeLocalizer(problem, trace.memory);
     if (status != Status::kOk) return refuse(trace, status);

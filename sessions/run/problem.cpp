@@ -2,11 +2,10 @@
 #include "sessions/run/problem.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "core/base/digest.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/trace/run_text.h"
 #include "sessions/trace/scene_render.h"
 
@@ -29,16 +28,12 @@ bool anythingRendered(const Camera& camera, const MeshView& mesh, const Pose& ca
 }
 
 std::string centreText(const Eigen::Vector3d& centre_in_camera_m) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                " (its centre is at %.3f %.3f %.3f m in the camera frame: x right, y down, z "
-                "forward)",
-                centre_in_camera_m.x(), centre_in_camera_m.y(), centre_in_camera_m.z());
-  return text.data();
+  return formatText(
+      " (its centre is at %.3f %.3f %.3f m in the camera frame: x right, y down, z forward)",
+      centre_in_camera_m.x(), centre_in_camera_m.y(), centre_in_camera_m.z());
 }
 
 [[noreturn]] void refuse(const InputPlaces::Place& place, const std::string& reason) {
-  if (place.field.empty()) throw InputError(place.file, reason);
   throw InputError(place.file, place.field, reason);
 }
 

@@ -160,7 +160,7 @@ IterationTrace SeveralViews::traceOf(std::size_t view, Stage reached) const {
   return iteration;
 }
 
-/// Of a view that was not asked: the pose of the others alone.
+/// For a view that takes no part: the pose of the others alone.
 IterationTrace SeveralViews::leftOut(std::size_t view) const {
   const Iteration& leading = *localizer_->iterationOf(0);
   IterationTrace iteration;
@@ -175,7 +175,7 @@ IterationTrace SeveralViews::leftOut(std::size_t view) const {
   return iteration;
 }
 
-/// Why the view has no say in the iteration; else how that ended.
+/// Why the view takes no part in the iteration; else how the iteration ended.
 LocalizationStatus SeveralViews::statusOf(std::size_t view) const {
   const LocalizationStatus own = localizer_->result().views[view].status;
   return isLeftOut(own) ? own : localizer_->iterationOf(0)->status;

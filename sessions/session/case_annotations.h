@@ -21,13 +21,14 @@ namespace boresight::sessions {
 /// The views that are solved with a case: itself first, then the other cases of its rig that have
 /// annotations, in the order of the session.
 struct CaseAnnotations {
-  std::vector<std::string> case_ids;  ///< by view
-  std::vector<AnnotatedView> views;   ///< cameras prepared; `name` is the case's id
-  bool rigid = false;                 ///< several: the pose is the rig's
-  bool robust = false;                ///< the session's choice
-  double sigmas = 3.0;                ///< number of sigmas that must fit into the requirement
-  Requirement requirement;            ///< of the case itself, like the next member
+  std::vector<AnnotatedView> views;  ///< cameras prepared; `name` is the case's id
+  bool rigid = false;                ///< several: the pose is the rig's
+  bool robust = false;               ///< the session's choice
+  double sigmas = 3.0;               ///< number of sigmas that must fit into the requirement
+  Requirement requirement;           ///< of the case itself, like the next member
   std::optional<Pose> camera_from_end_effector;
+
+  bool operator==(const CaseAnnotations&) const = default;
 };
 
 /// `together` false leaves the other cases of the rig out. A case alone is its own rig
@@ -47,8 +48,6 @@ struct CaseAnnotationsSolution {
   std::optional<Pose> camera_from_station() const;
   /// Covariance of that pose from the annotations alone: left perturbation, camera frame.
   std::optional<Matrix6d> covariance() const;
-  /// sigmaExcessText() of `sigmas` standard deviations; "" when they meet the requirement.
-  std::string sigmaExcess() const;
   /// The other pose that explains coplanar annotations, or empty.
   std::optional<Pose> ambiguous_camera_from_station() const;
   /// Normalized residuals (in standard deviations) of the outliers among the case's own

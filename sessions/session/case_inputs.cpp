@@ -20,30 +20,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string sizeInPixels(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
+std::string sizeInPixels(int width, int height) { return sizeText(width, height) + " px"; }
 
-std::string sizeConcern(int width, int height, const Camera& camera) {
-  if (width == camera.width && height == camera.height) return "";
-  return "The camera is for " + sizeInPixels(camera.width, camera.height) + ", the image is " +
-         sizeInPixels(width, height) + ".";
-}
-
-/// First letter and end of a sentence.
-std::string wholeSentence(std::string text) {
-  if (text.empty()) return text;
-  if (text.front() >= 'a' && text.front() <= 'z')
-    text.front() = static_cast<char>(text.front() - 'a' + 'A');
-  return text.back() == '.' ? text : text + ".";
-}
-
-std::optional<InputConcern> seedOrScaleConcern(const Camera& camera, const SceneMesh& scene,
-                                               const Pose& camera_from_station_seed) {
-  const std::string scale = scaleConcern(matchedBounds(scene.view()), camera_from_station_seed);
-  if (!scale.empty()) return InputConcern{InputKind::kMesh, wholeSentence(scale)};
-  const std::string seed = seedConcern(camera, scene.view(), camera_from_station_seed);
-  if (!seed.empty()) return InputConcern{InputKind::kSeed, wholeSentence(seed)};
+/// Why a run would reject these inputs, as far as they are known; nullptr: not known.
+std::optional<InputConcern> concernOf(const Camera& camera, const GrayImage* image,
+                                      const SceneMesh* scene,
+                                      const Pose* camera_from_station_seed) {
+  if (image != nullptr && (image->width != camera.width || image->height != camera.height))
+    return InputConcern{InputKind::kCamera,
+                        "The camera is for " + sizeInPixels(camera.width, camera.height) +
+                            ", the image is " + sizeInPixels(image->width, image->height) + "."};
+  if (const std::string field = fieldConcern(camera); !field.empty())
+    return InputConcern{InputKind::kCamera, asSentence(field)};
+  if (scene == nullptr || camera_from_station_seed == nullptr) return std::nullopt;
+  const Pose& seed = *camera_from_station_seed;
+  if (const std::string scale = scaleConcern(matchedBounds(scene->view()), seed); !scale.empty())
+    return InputConcern{InputKind::kMesh, asSentence(scale)};
+  if (const std::string concern = seedConcern(camera, scene->view(), seed); !concern.empty())
+    return InputConcern{InputKind::kSeed, asSentence(concern)};
   return std::nullopt;
 }
 
@@ -61,10 +55,10 @@ void judge(JudgedFile& file, Read&& read) {
   try {
     file.text = read();
   } catch (const FileError& error) {
-    file.problem = wholeSentence(error.field().empty() ? error.reason()
-                                                       : error.field() + ": " + error.reason());
+    file.problem =
+        asSentence(error.field().empty() ? error.reason() : error.field() + ": " + error.reason());
   } catch (const std::exception& error) {
-    file.problem = wholeSentence(error.what());
+    file.problem = asSentence(error.what());
   }
 }
 
@@ -109,9 +103,7 @@ ReadFiles readEach(const CaseFiles& files, JudgedFiles& judged) {
     judge(of(InputKind::kSeed), [&] {
       PoseFrames frames;
       if (read.camera) frames.reference = read.camera->reference;
-      for (const fs::path& file : files.transforms)
-        for (FrameTransform& transform : readFrameTransforms(file))
-          frames.transforms.push_back(std::move(transform));
+      frames.transforms = readTransforms(files);
       const PoseFile pose = readPose(files.seed, frames);
       read.camera_from_station_seed = pose.camera_from_station;
       return "station " + fixedText(pose.camera_from_station.translation_m.norm(), 2) + " m away";
@@ -121,23 +113,15 @@ ReadFiles readEach(const CaseFiles& files, JudgedFiles& judged) {
 
 /// Only what was read can contradict the rest.
 void compareFiles(const CaseFiles& files, const ReadFiles& read, JudgedFiles& judged) {
-  const auto object = [&judged](InputKind kind, const std::string& text) {
-    judged[static_cast<std::size_t>(kind)].problem = text;
-  };
   if (!read.camera) return;
-  const Camera& camera = read.camera->camera;
-  if (read.image) {
-    const std::string size = sizeConcern(read.image->width, read.image->height, camera);
-    if (!size.empty()) return object(InputKind::kCamera, size);
-  }
-  const std::string field = fieldConcern(camera);
-  if (!field.empty()) return object(InputKind::kCamera, wholeSentence(field));
   bool units_known = true;
   for (const PartSource& part : files.parts)
     units_known &= !part.mesh_unit.empty() || statesUnit(part.mesh);
-  if (!read.scene || !units_known || !read.camera_from_station_seed) return;
-  if (const auto concern = seedOrScaleConcern(camera, *read.scene, *read.camera_from_station_seed))
-    object(concern->kind, concern->text);
+  const auto concern =
+      concernOf(read.camera->camera, read.image ? &*read.image : nullptr,
+                read.scene && units_known ? &*read.scene : nullptr,
+                read.camera_from_station_seed ? &*read.camera_from_station_seed : nullptr);
+  if (concern) judged[static_cast<std::size_t>(concern->kind)].problem = concern->text;
 }
 
 }  // namespace
@@ -150,13 +134,8 @@ bool statesUnit(const fs::path& mesh) {
 std::optional<InputConcern> inputConcern(const LoadedCase& loaded) {
   const SessionCase& session_case = loaded.source;
   if (!session_case.has_seed) return std::nullopt;
-  const std::string size =
-      sizeConcern(loaded.image.width, loaded.image.height, session_case.camera);
-  if (!size.empty()) return InputConcern{InputKind::kCamera, size};
-  const std::string field = fieldConcern(session_case.camera);
-  if (!field.empty()) return InputConcern{InputKind::kCamera, wholeSentence(field)};
-  return seedOrScaleConcern(session_case.camera, loaded.scene,
-                            session_case.camera_from_station_seed);
+  return concernOf(session_case.camera, &loaded.image, &loaded.scene,
+                   &session_case.camera_from_station_seed);
 }
 
 JudgedFiles judgeFiles(const CaseFiles& files) {
@@ -174,11 +153,7 @@ SessionCase withInputFile(SessionCase session_case, InputKind kind, const fs::pa
   if (kind == InputKind::kImage) {
     session_case.image = imageInput(file, {});
   } else if (kind == InputKind::kCamera) {
-    const CameraFile camera = readChosenCamera(file, {});
-    session_case.camera = camera.camera;
-    session_case.camera_reference = camera.reference;
-    session_case.calibration_sigma = camera.calibration_sigma;
-    session_case.camera_covariance = camera.covariance;
+    setCamera(session_case, readChosenCamera(file, {}));
   } else if (kind == InputKind::kMesh) {
     PartSource part = session_case.parts.front().source;
     part.mesh = file;
@@ -193,11 +168,6 @@ SessionCase withInputFile(SessionCase session_case, InputKind kind, const fs::pa
     session_case.camera_from_station_working.reset();
   }
   return session_case;
-}
-
-SessionCase withMeshUnit(SessionCase session_case, const std::string& mesh_unit) {
-  const fs::path mesh = session_case.parts.front().source.mesh;
-  return withInputFile(std::move(session_case), InputKind::kMesh, mesh, mesh_unit);
 }
 
 }  // namespace boresight::sessions

@@ -48,7 +48,4 @@ JudgedFiles judgeFiles(const CaseFiles& files);
 SessionCase withInputFile(SessionCase session_case, InputKind kind,
                           const std::filesystem::path& file, const std::string& mesh_unit = "");
 
-/// The case with its first mesh in another unit. InputError.
-SessionCase withMeshUnit(SessionCase session_case, const std::string& mesh_unit);
-
 }  // namespace boresight::sessions

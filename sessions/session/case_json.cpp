@@ -22,8 +22,7 @@ constexpr auto kOrigin =
     choiceOf<TransformSource>("unstated", "telemetry", "calibration", "label", "commanded");
 constexpr auto kFrame = jsonCodec<FrameName>(&readFrameName);
 constexpr auto kPartFrame = Codec{&partFrameJson, &readPartFrame};
-constexpr auto kRole =
-    choiceOf<PartRole>(kPartRoleNames[0], kPartRoleNames[1], kPartRoleNames[2]);
+constexpr auto kRole = choiceOf<PartRole>(kPartRoleNames[0], kPartRoleNames[1], kPartRoleNames[2]);
 constexpr auto kCamera =
     jsonCodec<CameraFile>([](const JsonReader& json) { return readCameraFile(json); });
 constexpr auto kUncertainty = jsonCodec<DeclaredUncertainty>(&readUncertainty);
@@ -65,8 +64,9 @@ ImageReadOptions readEightBit(const JsonReader& json) {
   if (const auto depth = json.find("bit_depth"))
     options.bit_depth = static_cast<int>(depth->integer(1, 16));
   if (const auto bayer = json.find("bayer"))
-    options.bayer = bayerPatternNamed(bayer->choice({kBayerPatternNames[0], kBayerPatternNames[1],
-                                                     kBayerPatternNames[2], kBayerPatternNames[3]}));
+    options.bayer =
+        bayerPatternNamed(bayer->choice({kBayerPatternNames[0], kBayerPatternNames[1],
+                                         kBayerPatternNames[2], kBayerPatternNames[3]}));
   const std::string rule = json.at("rule").choice({"linear", "levels", "table"});
   if (rule != "table" && json.has("table"))
     json.failMember("table", "given although the rule is " + rule);
@@ -214,7 +214,7 @@ void fields(Archive& archive, Self& self) {
   archive.field("camera", camera, kCamera);
   archive.list("parts", self.parts);
   archive.optional("feature_size_m", self.feature_size_m, numberIn(1e-6, 100.0));
-  archive.optional("mesh_scale_sigma", self.mesh_scale_sigma, plainCodec(&readMeshScaleSigma));
+  archive.optional("mesh_scale_sigma", self.mesh_scale_sigma, numberIn(0.0, kMaxScaleSigma));
   std::optional<Pose> seed;
   if (!Archive::kReads && self.has_seed) seed = self.camera_from_station_seed;
   archive.optional("seed", seed, kExactPose);

@@ -17,6 +17,7 @@
 #include "sessions/trace/trace_file.h"
 
 #include "sessions/text/utc_time.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -25,12 +26,7 @@ namespace fs = std::filesystem;
 
 std::optional<IgnoreMask> loadMask(const SessionCase& session_case, const GrayImage& image) {
   if (!session_case.ignore && session_case.ignore_strokes.empty()) return std::nullopt;
-  IgnoreMask mask = emptyMask(image.width, image.height);
-  if (session_case.ignore) {
-    mask = readIgnoreMask(session_case.ignore->file, image.width, image.height);
-    requireKnown(session_case.ignore->file, "its bytes", mask.file_sha256,
-                 session_case.ignore->sha256);
-  }
+  IgnoreMask mask = readKnownMask(session_case, image.width, image.height);
   applyStrokes(session_case.ignore_strokes, image.view(), mask);
   return mask;
 }
@@ -46,21 +42,13 @@ std::shared_ptr<const LoadedCase> completed(const SessionCase& session_case, Gra
   return loaded;
 }
 
-InputPlaces placesOf(const LoadedCase& loaded) {
-  const auto& image = loaded.source.image.source.file;
-  return {{image, ""},
-          {image, "camera"},
-          {loaded.source.parts.front().source.mesh, ""},
-          {image, "seed"}};
-}
-
-}  // namespace
-
 GrayImage loadImage(const ImageInput& input) {
   GrayImage image = readKnownImage(input, input.eight_bit);
   requireKnown(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
   return image;
 }
+
+}  // namespace
 
 LocalizationProblem LoadedCase::problem() const {
   return problemOf(image, ignore ? &ignore_bits : nullptr, source.camera, scene.view(),
@@ -78,8 +66,8 @@ std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before,
   const bool same_image = session_case.image == before.source.image;
   const bool same_scene = sameScene(session_case, before.source);
   GrayImage image = same_image ? before.image : loadImage(session_case.image);
-  return completed(session_case, std::move(image),
-                   same_scene ? before.scene : readKnownScene(session_case));
+  SceneMesh scene = same_scene ? before.scene : readKnownScene(session_case);
+  return completed(session_case, std::move(image), std::move(scene));
 }
 
 void requireRunnable(const LoadedCase& loaded) {
@@ -102,7 +90,9 @@ LocalizationTrace runCase(const LoadedCase& loaded, const RunPlan& plan, RecordL
                           const std::stop_token& stop) {
   requireRunnable(loaded);
   LocalizationTrace trace = localize(loaded.problem(), plan, level, stop);
-  requireAccepted(trace, placesOf(loaded));
+  const fs::path& image = loaded.source.image.source.file;
+  const fs::path& mesh = loaded.source.parts.front().source.mesh;
+  requireAccepted(trace, {{image, ""}, {image, "camera"}, {mesh, ""}, {image, "seed"}});
   return trace;
 }
 

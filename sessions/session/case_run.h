@@ -32,9 +32,6 @@ struct LoadedCase {
   LoadedCase& operator=(const LoadedCase&) = delete;
 };
 
-/// Reads the image of a case and verifies its hash. InputError.
-GrayImage loadImage(const ImageInput& input);
-
 /// Reads a case's inputs. InputError when one is missing, invalid, or changed since the session was
 /// made. An image whose size differs from its camera's is loaded, too.
 std::shared_ptr<const LoadedCase> loadCase(const SessionCase& session_case);

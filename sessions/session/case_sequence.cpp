@@ -16,8 +16,6 @@
 namespace boresight::sessions {
 namespace {
 
-using SequenceClock = std::chrono::steady_clock;
-
 /// Of the sequence as a dataset: its images by their place alone. The case's own image is none.
 DatasetFacts sequenceFacts(const SequenceOrder& order, std::int64_t frames) {
   SessionCase without_image = order.session_case;
@@ -34,11 +32,11 @@ DatasetFacts sequenceFacts(const SequenceOrder& order, std::int64_t frames) {
 }
 
 BatchRun sequenceBatchRun(const SequenceOrder& order) {
-  BatchRun batch_run = thisBatchRun();
-  batch_run.command = order.command;
-  batch_run.threads = threadsOf(order.settings.threads, order.settings.memory_limit);
-  batch_run.kernels = kernelsName(order.settings.kernels);
-  return batch_run;
+  BatchRun batch = thisBatchRun();
+  batch.command = order.command;
+  batch.threads = threadsOf(order.settings.threads, order.settings.memory_limit);
+  batch.kernels = kernelsName(order.settings.kernels);
+  return batch;
 }
 
 /// Results of an earlier process, by the frame's name; none when there is no file.
@@ -54,10 +52,8 @@ std::map<std::string, RunResult> earlierResults(const std::filesystem::path& fil
 std::optional<IgnoreMask> sequenceMask(const SessionCase& session_case, const GrayImage* image) {
   const bool strokes = image != nullptr && !session_case.ignore_strokes.empty();
   if (!session_case.ignore && !strokes) return std::nullopt;
-  const int width = session_case.camera.width;
-  const int height = session_case.camera.height;
-  IgnoreMask mask = session_case.ignore ? readIgnoreMask(session_case.ignore->file, width, height)
-                                        : emptyMask(width, height);
+  IgnoreMask mask =
+      readKnownMask(session_case, session_case.camera.width, session_case.camera.height);
   if (strokes) {
     requireSameSize(*image, session_case.camera);
     applyStrokes(session_case.ignore_strokes, image->view(), mask);
@@ -97,7 +93,7 @@ CaseSequence::CaseSequence(const SequenceOrder& order, SequenceInputs inputs,
   writer_.admit(methodFacts(kWhs, order.profile, order.options));
   earlier_ = earlierResults(order.results);
   writer_.begin(sequenceBatchRun(order));
-  began_ = SequenceClock::now();
+  began_ = std::chrono::steady_clock::now();
   readAhead();
 }
 
@@ -122,7 +118,7 @@ std::optional<RunResult> CaseSequence::next(const std::stop_token& stop) {
   if (stop.stop_requested()) return std::nullopt;
   writer_.add(result);
   ++localized_;
-  passed_ = SequenceClock::now() - began_;
+  passed_ = std::chrono::steady_clock::now() - began_;
   return result;
 }
 

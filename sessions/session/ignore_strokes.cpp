@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "sessions/session/session.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -25,13 +25,11 @@ PixelRange pixelsBetween(double low, double high, int size) {
   return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-void setPixel(IgnoreMask& mask, int x, int y, bool erase) {
-  const int words_per_row = BitImage::wordsPerRow(mask.width);
-  std::uint64_t& word =
-      mask.words[static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(y) +
-                 static_cast<std::size_t>(x >> 6)];
-  const std::uint64_t bit = std::uint64_t{1} << (x & 63);
-  word = erase ? word & ~bit : word | bit;
+void setPixel(BitImage& mask, int x, int y, bool erase) {
+  if (erase)
+    mask.reset(x, y);
+  else
+    mask.set(x, y);
 }
 
 double squaredDistance(const Eigen::Vector2d& point, const Eigen::Vector2d& a,
@@ -44,7 +42,7 @@ double squaredDistance(const Eigen::Vector2d& point, const Eigen::Vector2d& a,
 }
 
 void brushSegment(const MaskStroke& stroke, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                  IgnoreMask& mask) {
+                  BitImage& mask) {
   const double radius_px = stroke.radius_px;
   const Eigen::Vector2d low = a.cwiseMin(b).array() - radius_px;
   const Eigen::Vector2d high = a.cwiseMax(b).array() + radius_px;
@@ -56,7 +54,7 @@ void brushSegment(const MaskStroke& stroke, const Eigen::Vector2d& a, const Eige
         setPixel(mask, x, y, stroke.erase);
 }
 
-void fillPolygon(const MaskStroke& stroke, IgnoreMask& mask) {
+void fillPolygon(const MaskStroke& stroke, BitImage& mask) {
   const std::vector<Eigen::Vector2d>& points = stroke.points;
   std::vector<double> crossings;
   for (int y = 0; y < mask.height; ++y) {
@@ -75,29 +73,21 @@ void fillPolygon(const MaskStroke& stroke, IgnoreMask& mask) {
   }
 }
 
-void markSaturated(const MaskStroke& stroke, const ImageView& image, IgnoreMask& mask) {
+void markSaturated(const MaskStroke& stroke, const ImageView& image, BitImage& mask) {
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x)
       if (image.at(x, y) >= stroke.level) setPixel(mask, x, y, stroke.erase);
 }
 
-void applyStroke(const MaskStroke& stroke, const ImageView& image, IgnoreMask& mask) {
-  switch (stroke.kind) {
-    case StrokeKind::kBrush:
-      for (std::size_t i = 0; i < stroke.points.size(); ++i)
-        brushSegment(stroke, stroke.points[i > 0 ? i - 1 : 0], stroke.points[i], mask);
-      break;
-    case StrokeKind::kPolygon:
-      fillPolygon(stroke, mask);
-      break;
-    case StrokeKind::kSaturation:
-      markSaturated(stroke, image, mask);
-      break;
-  }
+void applyStroke(const MaskStroke& stroke, const ImageView& image, BitImage& mask) {
+  if (stroke.kind == StrokeKind::kPolygon) return fillPolygon(stroke, mask);
+  if (stroke.kind == StrokeKind::kSaturation) return markSaturated(stroke, image, mask);
+  for (std::size_t i = 0; i < stroke.points.size(); ++i)
+    brushSegment(stroke, stroke.points[i > 0 ? i - 1 : 0], stroke.points[i], mask);
 }
 
 bool contains(const MaskStrokes& strokes, const MaskStroke& stroke) {
-  return std::find(strokes.begin(), strokes.end(), stroke) != strokes.end();
+  return std::ranges::find(strokes, stroke) != strokes.end();
 }
 
 bool sameCamera(const SessionCase& a, const SessionCase& b) {
@@ -106,17 +96,9 @@ bool sameCamera(const SessionCase& a, const SessionCase& b) {
 
 }  // namespace
 
-IgnoreMask emptyMask(int width, int height) {
-  IgnoreMask mask;
-  mask.width = width;
-  mask.height = height;
-  mask.words.assign(
-      static_cast<std::size_t>(BitImage::wordsPerRow(width)) * static_cast<std::size_t>(height), 0);
-  return mask;
-}
-
 void applyStrokes(const MaskStrokes& strokes, const ImageView& image, IgnoreMask& mask) {
-  for (const MaskStroke& stroke : strokes) applyStroke(stroke, image, mask);
+  BitImage bits = mask.view();
+  for (const MaskStroke& stroke : strokes) applyStroke(stroke, image, bits);
   mask.ignored_count = 0;
   for (const std::uint64_t word : mask.words) mask.ignored_count += std::popcount(word);
 }
@@ -176,20 +158,12 @@ MaskStrokes namedStrokesOfCamera(const Session& session, const std::string& case
 
 std::string strokeText(const MaskStroke& stroke) {
   std::string text = stroke.erase ? "erase: " : "";
-  char width_px[32];
-  switch (stroke.kind) {
-    case StrokeKind::kBrush:
-      std::snprintf(width_px, sizeof width_px, "%.3g", 2.0 * stroke.radius_px);
-      text += "brush, " + std::string(width_px) + " px wide";
-      break;
-    case StrokeKind::kPolygon:
-      text += "polygon of " + std::to_string(stroke.points.size()) + " corners";
-      break;
-    case StrokeKind::kSaturation:
-      text +=
-          stroke.level == 0 ? "all pixels" : "pixels of at least " + std::to_string(stroke.level);
-      break;
-  }
+  if (stroke.kind == StrokeKind::kBrush)
+    text += "brush, " + threeDigits(2.0 * stroke.radius_px) + " px wide";
+  else if (stroke.kind == StrokeKind::kPolygon)
+    text += "polygon of " + std::to_string(stroke.points.size()) + " corners";
+  else
+    text += stroke.level == 0 ? "all pixels" : "pixels of at least " + std::to_string(stroke.level);
   return stroke.name.empty() ? text : stroke.name + " (" + text + ")";
 }
 

@@ -35,9 +35,6 @@ struct MaskStroke {
 
 using MaskStrokes = std::vector<MaskStroke>;
 
-/// No pixel ignored.
-IgnoreMask emptyMask(int width, int height);
-
 /// Applies strokes in their order to a mask of the image's size, and counts again. Only + - * and
 /// comparisons of doubles: the same pixels on every machine.
 void applyStrokes(const MaskStrokes& strokes, const ImageView& image, IgnoreMask& mask);

@@ -2,9 +2,10 @@
 #include "sessions/session/image_names.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <set>
+
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -17,14 +18,6 @@ fs::path commonFolder(const fs::path& a, const fs::path& b) {
   auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   for (auto part = a.begin(); part != in_a; ++part) common /= *part;
   return common;
-}
-
-std::optional<int> numberOf(const fs::path& image) {
-  const std::string stem = image.stem().string();
-  int number = -1;
-  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  if (error != std::errc() || end != stem.data() + stem.size() || number < 0) return {};
-  return number;
 }
 
 }  // namespace
@@ -44,8 +37,8 @@ std::vector<int> imageNumbers(const Session& session) {
   std::vector<int> numbers;
   std::set<int> seen;
   for (const auto& session_case : session.cases)
-    if (const auto number = numberOf(session_case->image.source.file);
-        number && seen.insert(*number).second)
+    if (const auto number = numberIn<int>(session_case->image.source.file.stem().string());
+        number && *number >= 0 && seen.insert(*number).second)
       numbers.push_back(*number);
   if (numbers.size() == session.cases.size()) return numbers;
   for (numbers.clear(); numbers.size() < session.cases.size();)
@@ -57,9 +50,8 @@ std::vector<int> stationNumbers(const Session& session) {
   std::vector<const SessionCase*> stations;
   std::vector<int> numbers;
   for (const auto& session_case : session.cases) {
-    const auto same = std::find_if(
-        stations.begin(), stations.end(),
-        [&session_case](const SessionCase* other) { return sameMeshes(*session_case, *other); });
+    const auto same = std::ranges::find_if(
+        stations, [&](const SessionCase* other) { return sameMeshes(*session_case, *other); });
     numbers.push_back(static_cast<int>(same - stations.begin()) + 1);
     if (same == stations.end()) stations.push_back(&*session_case);
   }

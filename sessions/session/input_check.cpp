@@ -51,6 +51,35 @@ std::vector<Dependency> dependenciesOf(const SessionCase& session_case) {
   return all;
 }
 
+/// Companion file of the image: "its label DET.LBL", "its pixels DET.DAT"; "" for an image of one
+/// file, and for one that cannot be read.
+std::string otherFileText(const fs::path& image) {
+  try {
+    const auto label = labelFileOf(image);
+    if (!label) return "";
+    if (*label != image) return "its label " + label->filename().string();
+    const LabelFiles files = readLabelFiles(*label);
+    return files.parts.size() < 2 ? "" : "its pixels " + files.parts[1].name;
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+/// One sentence when the session has a label of the image, but neither the file nor a companion
+/// still has it; else "".
+std::string lostLabelText(const ImageInput& image) {
+  std::error_code error;
+  const fs::path& file = image.source.file;
+  if (image.label.empty() || !fs::exists(file, error) || labelFileOf(file)) return "";
+  try {
+    (void)readSamples(file);
+    return "";  // another picture that needs no label
+  } catch (const InputError&) {
+  }
+  const std::string stem = file.stem().string();
+  return "its former label is missing: put " + stem + ".lbl (or " + stem + ".xml) back next to it";
+}
+
 /// The file, and its companion file of the same image.
 std::string namesOf(const Dependency& dependency) {
   const std::string other =
@@ -120,8 +149,7 @@ class Search {
     for (auto place = first; place != last; ++place)
       if (hasSha256(place->second, dependency.sha256)) return place->second;
     for (const auto& [name, place] : files())  // renamed
-      if (name.extension() == dependency.file.extension() &&
-          hasSha256(place, dependency.sha256))
+      if (name.extension() == dependency.file.extension() && hasSha256(place, dependency.sha256))
         return place;
     return std::nullopt;
   }
@@ -202,9 +230,7 @@ std::vector<Relink> findMissing(const Session& session, const fs::path& session_
 
 Session relinked(const Session& session, const std::vector<Relink>& relinks) {
   const auto move = [&relinks](fs::path& file) {
-    const auto found = std::find_if(relinks.begin(), relinks.end(), [&file](const Relink& relink) {
-      return relink.missing == file;
-    });
+    const auto found = std::ranges::find(relinks, file, &Relink::missing);
     if (found == relinks.end()) return false;
     file = found->found;
     return true;
@@ -252,6 +278,14 @@ SceneMesh readKnownScene(const SessionCase& session_case) {
   return readScene(partsOf(session_case), framesOf(session_case), check);
 }
 
+IgnoreMask readKnownMask(const SessionCase& session_case, int width, int height) {
+  if (!session_case.ignore) return emptyMask(width, height);
+  IgnoreMask mask = readIgnoreMask(session_case.ignore->file, width, height);
+  requireKnown(session_case.ignore->file, "its bytes", mask.file_sha256,
+               session_case.ignore->sha256);
+  return mask;
+}
+
 void requireKnown(const fs::path& file, const std::string& what, const std::string& found_sha256,
                   const std::string& known_sha256) {
   if (found_sha256 != known_sha256)
@@ -260,37 +294,12 @@ void requireKnown(const fs::path& file, const std::string& what, const std::stri
         what + " differ from those of the session: relink the file, or accept it as it is now");
 }
 
-std::string otherFileText(const fs::path& image) {
-  try {
-    const auto label = labelFileOf(image);
-    if (!label) return "";
-    if (*label != image) return "its label " + label->filename().string();
-    const LabelFiles files = readLabelFiles(*label);
-    return files.parts.size() < 2 ? "" : "its pixels " + files.parts[1].name;
-  } catch (const InputError&) {
-    return "";
-  }
-}
-
-std::string lostLabelText(const ImageInput& image) {
-  std::error_code error;
-  const fs::path& file = image.source.file;
-  if (image.label.empty() || !fs::exists(file, error) || labelFileOf(file)) return "";
-  try {
-    (void)readSamples(file);
-    return "";  // another picture that needs no label
-  } catch (const InputError&) {
-  }
-  const std::string stem = file.stem().string();
-  return "its former label is missing: put " + stem + ".lbl (or " + stem + ".xml) back next to it";
-}
-
 ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit) {
   const GrayImage read = readKnownImage(image, eight_bit);
-  ImageInput image_input = image;
-  image_input.eight_bit = eight_bit;
-  image_input.pixels_sha256 = read.pixels_sha256;
-  return image_input;
+  ImageInput changed = image;
+  changed.eight_bit = eight_bit;
+  changed.pixels_sha256 = read.pixels_sha256;
+  return changed;
 }
 
 Session withConversions(const Session& session, const std::vector<Conversion>& conversions) {

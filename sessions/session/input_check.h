@@ -59,17 +59,13 @@ GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_
 /// the session: they are not parsed.
 SceneMesh readKnownScene(const SessionCase& session_case);
 
+/// The mask image of a case, all false without one. InputError when it cannot be read, has another
+/// size, or differs from that of the session.
+IgnoreMask readKnownMask(const SessionCase& session_case, int width, int height);
+
 /// InputError naming `what` of the file, unless the hashes are the same.
 void requireKnown(const std::filesystem::path& file, const std::string& what,
                   const std::string& found_sha256, const std::string& known_sha256);
-
-/// Companion file of the image: "its label DET.LBL", "its pixels DET.DAT"; "" for an
-/// image of one file, and for one that cannot be read.
-std::string otherFileText(const std::filesystem::path& image);
-
-/// One sentence when the session has a label of the image, but neither the file nor a companion
-/// still has it; else "".
-std::string lostLabelText(const ImageInput& image);
 
 /// The same image, converted to 8 bit by another rule. Reads the file; InputError when it differs
 /// from that of the session, or the rule does not fit it.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "core/base/math.h"
 #include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/pose_error.h"
@@ -13,8 +15,9 @@
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_check.h"
-#include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
+#include "sessions/session/stated_inputs.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"
 
@@ -23,10 +26,6 @@ namespace {
 
 /// A station smaller than this in the image cannot be matched.
 constexpr double kSmallestStation_px = 24.0;
-
-std::string sizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
 
 /// Angle between the rays of two pixels, deg; not finite where one has no ray.
 double angleBetween_deg(const Camera& camera, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -51,10 +50,9 @@ void flagCamera(const Camera& camera, CameraSheet& sheet) {
         {"camera_aspect",
          "fx and fy differ by " + fixedText(100.0 * std::abs(aspect - 1.0), 1) + " %"});
   Eigen::Vector3d ray;
-  for (const Eigen::Vector2d& corner :
-       {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),
-        Eigen::Vector2d(right, bottom)})
-    if (!unproject(camera, corner, ray)) {
+  for (const double x : {0.0, right})
+    for (const double y : {0.0, bottom}) {
+      if (unproject(camera, {x, y}, ray)) continue;
       const std::string concern = fieldConcern(camera);
       sheet.flags.push_back(
           {"camera_corners",
@@ -73,11 +71,6 @@ struct Differences {
   bool alternate() const { return next > 1.25 * second && next > 0.0; }
 };
 
-bool contains(const BoundingBox& bounds, const Eigen::Vector3d& point_m) {
-  return (point_m.array() >= bounds.minimum_m.array()).all() &&
-         (point_m.array() <= bounds.maximum_m.array()).all();
-}
-
 void flagSeed(const SessionCase& session_case, const SceneMesh& scene, InputSheet& sheet) {
   const BoundingBox bounds = matchedBounds(scene.view());
   const Pose& seed = session_case.camera_from_station_seed;
@@ -89,7 +82,8 @@ void flagSeed(const SessionCase& session_case, const SceneMesh& scene, InputShee
     sheet.flags.push_back({behind ? "station_behind_camera" : "station_out_of_view", concern});
   }
   const Eigen::Vector3d camera_in_station_m = seed.inverse().translation_m;
-  if (contains(bounds, camera_in_station_m) && isInside(scene.view(), camera_in_station_m))
+  const Eigen::AlignedBox3d box_m(bounds.minimum_m, bounds.maximum_m);
+  if (box_m.contains(camera_in_station_m) && isInside(scene.view(), camera_in_station_m))
     sheet.flags.push_back({"camera_in_station",
                            "the seed places the camera inside the station: check the mesh's unit, "
                            "and that the seed is camera_from_station"});
@@ -126,6 +120,8 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
   const GrayImage& image = loaded.image;
   const BoundingBox bounds = matchedBounds(loaded.scene.view());
   const Eigen::Vector3d extent_mm = kMillimetres * (bounds.maximum_m - bounds.minimum_m);
+  const std::string size = fixedText(extent_mm.x(), 1) + " x " + fixedText(extent_mm.y(), 1) +
+                           " x " + fixedText(extent_mm.z(), 1) + " mm";
   const double seed_distance_m = (session_case.camera_from_station_seed * bounds.centre()).norm();
   const double view_width_mm =
       kMillimetres * seed_distance_m * session_case.camera.width / session_case.camera.fx;
@@ -135,8 +131,7 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
   add("image", image.container + ", " + sizeText(image.width, image.height) + " px, " +
                    std::to_string(image.channels) + " channels, " +
                    std::to_string(image.sample_bits) +
-                   " bit; the centre of the top-left pixel is "
-                   "(0, 0)");
+                   " bit; the centre of the top-left pixel is (0, 0)");
   if (image.label)
     for (const SheetLine& line : labelLines(*image.label)) sheet.lines.push_back(line);
   add("to 8 bit", image.rule);
@@ -155,31 +150,30 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
   for (const PartSource& part : partsOf(session_case)) add("part", partText(part));
   const InputSigmas sigmas(session_case);
   add("scale, one sigma", meshScaleText(sigmas));
-  add("calibration, one sigma", calibrationText(sigmas) +
-                                    ": of the focal length and of the "
-                                    "principal point");
-  add("station", fixedText(extent_mm.x(), 1) + " x " + fixedText(extent_mm.y(), 1) + " x " +
-                     fixedText(extent_mm.z(), 1) + " mm" +
-                     (session_case.has_seed ? "; the view is " + fixedText(view_width_mm, 1) +
-                                                  " mm wide at its distance"
-                                            : ""));
-  add("seed", session_case.has_seed
-                  ? fixedText(seed_distance_m, 4) + " m from the camera to the station's middle"
-                  : "none");
+  add("calibration, one sigma",
+      calibrationText(sigmas) + ": of the focal length and of the principal point");
+  if (session_case.has_seed) {
+    add("station",
+        size + "; the view is " + fixedText(view_width_mm, 1) + " mm wide at its distance");
+    add("seed", fixedText(seed_distance_m, 4) + " m from the camera to the station's middle");
+  } else {
+    add("station", size);
+    add("seed", "none");
+  }
   if (loaded.ignore)
     add("ignored", std::to_string(loaded.ignore->ignored_count) + " px, " +
-                       fixedText(100.0 * static_cast<double>(loaded.ignore->ignored_count) /
-                                     (static_cast<double>(image.width) * image.height),
-                                 2) +
-                       " % of the image");
+                       percentText(static_cast<double>(loaded.ignore->ignored_count) /
+                                       (static_cast<double>(image.width) * image.height),
+                                   2) +
+                       " of the image");
 }
 
 /// Of a truth that was measured, against the case's own requirement or that of the first preset.
 void flagTruth(const SessionCase& session_case, InputSheet& sheet) {
   if (!session_case.camera_from_station_truth || !session_case.truth_covariance) return;
-  const std::string excess = sigmaExcessText(
-      *session_case.truth_covariance, session_case.camera_from_end_effector,
-      session_case.requirement.value_or(checkPresets().front().requirement));
+  const std::string excess =
+      sigmaExcessText(*session_case.truth_covariance, session_case.camera_from_end_effector,
+                      session_case.requirement.value_or(checkPresets().front().requirement));
   if (!excess.empty())
     sheet.flags.push_back({"truth_uncertain", "one sigma of the truth is " + excess +
                                                   ": too large to judge a result; annotate more "
@@ -273,8 +267,7 @@ ImageSheet imageSheet(const GrayImage& image) {
   if (looksLikeMosaic(image.view()))
     sheet.flags.push_back({"image_mosaic",
                            "the pixels look like a Bayer mosaic: state its pattern (whs new "
-                           "--bayer), or convert to gray "
-                           "before matching"});
+                           "--bayer), or convert to gray before matching"});
   return sheet;
 }
 

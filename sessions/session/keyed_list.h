@@ -54,10 +54,6 @@ class KeyedList {
     if (indexed_) enter(values_.size() - 1);
   }
   void clear() { *this = KeyedList(); }
-  void resize(std::size_t size) {
-    values_.resize(size);
-    index();
-  }
   template <class Predicate>
   void eraseIf(Predicate&& predicate) {
     std::erase_if(values_, predicate);

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "sessions/io/images/labels/image_label.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -31,6 +32,14 @@ std::optional<double> largestDifference_px(const Camera& a, const Camera& b, dou
   return largest_px;
 }
 
+/// "1.0 mm and 0.02 deg"; "" where the poses agree.
+std::string apartText(const Pose& pose, const Pose& other) {
+  const double apart_m = (pose.translation_m - other.translation_m).norm();
+  const double turned_rad = pose.rotation.angularDistance(other.rotation);
+  if (apart_m <= kAgreeing_m && turned_rad <= kAgreeing_rad) return "";
+  return formatText("%.1f mm and %.2f deg", 1e3 * apart_m, turned_rad / kDegree_rad);
+}
+
 std::string cameraConcern(const SessionCase& session_case, const CameraFile& label) {
   const Camera& stated = label.camera;
   if (stated.width != session_case.camera.width || stated.height != session_case.camera.height)
@@ -48,17 +57,12 @@ std::string cameraConcern(const SessionCase& session_case, const CameraFile& lab
   if (!session_case.camera_reference || !label.reference || label.reference->frame.name.empty() ||
       !(session_case.camera_reference->frame == label.reference->frame))
     return "";
-  const double apart_m =
-      (session_case.camera_reference->camera_from_reference.inverse().translation_m -
-       label.reference->camera_from_reference.inverse().translation_m)
-          .norm();
-  const double turned_rad =
-      session_case.camera_reference->camera_from_reference.rotation.angularDistance(
-          label.reference->camera_from_reference.rotation);
-  if (apart_m <= kAgreeing_m && turned_rad <= kAgreeing_rad) return "";
+  const std::string apart =
+      apartText(session_case.camera_reference->camera_from_reference.inverse(),
+                label.reference->camera_from_reference.inverse());
+  if (apart.empty()) return "";
   return "the camera is not that of the image's label: in " + frameText(label.reference->frame) +
-         " it differs by " + fixedText(1e3 * apart_m, 1) + " mm and " +
-         fixedText(turned_rad / kDegree_rad, 2) + " deg";
+         " it differs by " + apart;
 }
 
 /// What the label says of the transform's two frames, as target_from_source.
@@ -75,12 +79,10 @@ std::optional<Pose> statedTransform(const FrameTransform& given, const ImageLabe
 std::string transformConcern(const FrameTransform& given, const ImageLabel& label) {
   const auto stated = statedTransform(given, label);
   if (!stated) return "";
-  const double apart_m = (stated->translation_m - given.target_from_source.translation_m).norm();
-  const double turned_rad = stated->rotation.angularDistance(given.target_from_source.rotation);
-  if (apart_m <= kAgreeing_m && turned_rad <= kAgreeing_rad) return "";
+  const std::string apart = apartText(*stated, given.target_from_source);
+  if (apart.empty()) return "";
   return given.file.filename().string() + " and the image's label differ about where " +
-         frameText(given.source) + " is in " + frameText(given.target) + ": by " +
-         fixedText(1e3 * apart_m, 1) + " mm and " + fixedText(turned_rad / kDegree_rad, 2) + " deg";
+         frameText(given.source) + " is in " + frameText(given.target) + ": by " + apart;
 }
 
 }  // namespace
@@ -96,8 +98,7 @@ void flagLabel(const SessionCase& session_case, const ImageLabel& label,
   }
   for (const FrameTransform& given : session_case.frames) {
     const RedFlag flag{"transform_label", transformConcern(given, label)};
-    if (!flag.text.empty() && std::find(flags.begin(), flags.end(), flag) == flags.end())
-      flags.push_back(flag);
+    if (!flag.text.empty() && std::ranges::find(flags, flag) == flags.end()) flags.push_back(flag);
   }
 }
 

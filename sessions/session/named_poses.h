@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 A pose of the station in the frames that files name.
+// SPDX-License-Identifier: Apache-2.0
+// A pose of the station in the frames that files name.
 #pragma once
 
 #include <optional>

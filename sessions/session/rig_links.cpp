@@ -54,10 +54,9 @@ const RunRecord* ownRunOf(const Session& session, const std::string& other,
                           const std::string& case_id) {
   const RunRecord* last = nullptr;
   for (const RunRecord& run : session.runs) {
-    const std::vector<std::string> together =
-        run.together ? casesOf(*run.together) : std::vector<std::string>();
-    const bool shared = std::find(together.begin(), together.end(), case_id) != together.end();
-    if (run.case_id == other && !shared) last = &run;
+    if (run.case_id != other) continue;
+    const auto together = run.together ? casesOf(*run.together) : std::vector<std::string>();
+    if (std::ranges::find(together, case_id) == together.end()) last = &run;
   }
   return last;
 }

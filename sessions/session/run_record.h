@@ -41,8 +41,7 @@ struct RunRecord {
   std::string time;            ///< UTC, when it ended
   std::string inputs_sha256;   ///< inputsDigest of the case that ran
   std::string options_sha256;  ///< optionsDigest of the options at the end of the run
-  std::optional<RerunRecord> rerun =
-      std::nullopt;  ///< of a run that changed options
+  std::optional<RerunRecord> rerun = std::nullopt;  ///< of a run that changed options
   /// Of a run that was solved together with other views of the case's rig.
   std::optional<TogetherRecord> together = std::nullopt;
 

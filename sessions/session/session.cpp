@@ -73,6 +73,13 @@ bool sameMeshes(const SessionCase& a, const SessionCase& b) {
   return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), same);
 }
 
+void setCamera(SessionCase& session_case, const CameraFile& camera) {
+  session_case.camera = camera.camera;
+  session_case.camera_reference = camera.reference;
+  session_case.calibration_sigma = camera.calibration_sigma;
+  session_case.camera_covariance = camera.covariance;
+}
+
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance) {
   session_case.camera_from_station_truth = camera_from_station;
@@ -105,8 +112,7 @@ Session withChanged(const Session& session, const std::string& case_id,
 
 Session withCase(const Session& session, SessionCase changed) {
   Session next = session;
-  const auto found = std::find_if(next.cases.begin(), next.cases.end(),
-                                  [&](const auto& item) { return item->id == changed.id; });
+  const auto found = std::ranges::find(next.cases, changed.id, CaseIdOf());
   if (found != next.cases.end())
     *found = std::move(changed);
   else
@@ -132,9 +138,10 @@ Session withoutCase(const Session& session, const std::string& case_id) {
   return next;
 }
 
-Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation) {
+Session withAnnotations(const Session& session, const std::string& case_id,
+                        Annotations annotations) {
   Session next = session;
-  put(case_id, std::move(annotation), next.annotations);
+  put(case_id, std::move(annotations), next.annotations);
   return next;
 }
 
@@ -167,8 +174,7 @@ Session withOptions(const Session& session, const std::string& profile,
   Session next = session;
   next.profile = profile;
   next.options = changedOptions(options, profileOptions(profile).value());
-  std::sort(next.options.begin(), next.options.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::sort(next.options, {}, &OptionList::value_type::first);
   return next;
 }
 
@@ -178,11 +184,7 @@ LocalizerOptions sessionOptions(const Session& session, const std::filesystem::p
     throw InputError(
         file, "profile",
         "there is no profile \"" + session.profile + "\"; there are: " + profileNames());
-  Config config;
-  config.file = file;
-  config.profile = session.profile;
-  config.options = session.options;
-  applyConfig(*options, config);
+  applyConfig(*options, {file, session.profile, session.options});
   return *options;
 }
 
@@ -279,7 +281,7 @@ bool StaleRuns::isStale(const RunRecord& run, const SharedValue<SessionCase>& sh
   if (run.together) return stalenessOf(run, session, file).stale();
   takeOptions(session);
   auto known = inputs_.find(shared_value->id);
-  if (known == inputs_.end() || !known->second.one.sharesWith(shared_value))
+  if (known == inputs_.end() || !known->second.of_case.sharesWith(shared_value))
     known =
         inputs_
             .insert_or_assign(shared_value->id, Inputs{shared_value, inputsDigest(*shared_value)})

@@ -115,12 +115,12 @@ bool sameScene(const SessionCase& a, const SessionCase& b);
 /// Whether two cases have the same meshes in the same places, in any states.
 bool sameMeshes(const SessionCase& a, const SessionCase& b);
 
+/// Sets the camera of a case with its reference frame and its uncertainty.
+void setCamera(SessionCase& session_case, const CameraFile& camera);
+
 /// Sets the truth of a case and drops all data about a former truth.
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance = std::nullopt);
-
-/// The annotations of one case.
-using Annotation = Annotations;
 
 /// View state that belongs to the document; windows and layout do not.
 struct DocumentView {
@@ -144,7 +144,7 @@ struct Session {
   std::string profile = "default";
   OptionList options;  ///< differences from the profile, in alphabetical order
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
-  std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; no element is empty
+  std::map<std::string, SharedValue<Annotations>> annotations;  ///< by case; no element is empty
   /// Completed annotation rounds by case, in order of completion; no element is empty.
   std::map<std::string, SharedValue<AnnotationRounds>> rounds;
   bool robust_annotations = false;  ///< outliers among annotations get less weight
@@ -178,7 +178,8 @@ std::string freeCaseId(const Session& session, const std::string& id);
 /// The same session without a case and all its data.
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is removed.
-Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation);
+Session withAnnotations(const Session& session, const std::string& case_id,
+                        Annotations annotations);
 /// The same session with the completed annotation rounds of a case; an empty list is removed.
 Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds);
 
@@ -229,7 +230,7 @@ class StaleRuns {
 
  private:
   struct Inputs {
-    SharedValue<SessionCase> one;
+    SharedValue<SessionCase> of_case;
     std::string digest;
   };
   void takeOptions(const Session& session);

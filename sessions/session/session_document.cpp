@@ -13,6 +13,7 @@
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/session/session_file.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
@@ -20,14 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string countText(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 /// Options are kept in the order in which they are read back.
 Session ordered(Session session) {
-  std::stable_sort(session.options.begin(), session.options.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(session.options, {}, &OptionList::value_type::first);
   return session;
 }
 
@@ -72,6 +68,18 @@ Recovery readRecovery(const JsonReader& json) {
   return recovery;
 }
 
+/// The session after an undo or redo to `target`. Runs and view state are not edits: they are kept
+/// from `current`, except for cases that only `target` has (its runs are used) or lacks (no runs).
+Session keepingRuns(const Session& target, const Session& current) {
+  Session kept = target;
+  kept.runs.eraseIf([&](const RunRecord& run) { return current.findCase(run.case_id) != nullptr; });
+  for (const RunRecord& run : current.runs)
+    if (kept.findCase(run.case_id) != nullptr) kept.runs.push_back(run);
+  kept.view = current.view;
+  if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
+  return kept;
+}
+
 }  // namespace
 
 void writeJournal(const std::filesystem::path& file, const Journal& journal,
@@ -102,7 +110,9 @@ SessionDocument SessionDocument::open(const fs::path& file, Access access) {
     document.takeLock();
   else
     document.read_only_reason_ = "it was opened for reading only";
-  document.readSaved();
+  SavedSession saved = readSessionFile(document.file_);
+  document.file_sha256_ = saved.file_sha256;
+  document.session_ = document.saved_ = std::move(saved.session);
   document.readJournalBeside();
   return document;
 }
@@ -138,12 +148,6 @@ void SessionDocument::takeLock() {
         (lock_->other() ? lock_->other()->text() : std::string("by another program"));
   else if (lock_->stale())
     notices_.push_back("the last program did not close it: " + lock_->stale()->text());
-}
-
-void SessionDocument::readSaved() {
-  SavedSession saved = readSessionFile(file_);
-  file_sha256_ = saved.file_sha256;
-  session_ = saved_ = std::move(saved.session);
 }
 
 void SessionDocument::readJournalBeside() {
@@ -258,16 +262,6 @@ void SessionDocument::saveAs(const fs::path& file) {
   other.session_ = other.saved_ = std::move(session);
   if (journal_) fs::remove(journalFileOf(file_), error);  // its edits are in the new file
   *this = std::move(other);
-}
-
-Session keepingRuns(const Session& target, const Session& current) {
-  Session kept = target;
-  kept.runs.eraseIf([&](const RunRecord& run) { return current.findCase(run.case_id) != nullptr; });
-  for (const RunRecord& run : current.runs)
-    if (kept.findCase(run.case_id) != nullptr) kept.runs.push_back(run);
-  kept.view = current.view;
-  if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
-  return kept;
 }
 
 void SessionHistory::perform(const Session& after, const std::string& text) {

@@ -87,7 +87,6 @@ class SessionDocument {
  private:
   explicit SessionDocument(const std::filesystem::path& file);
   void takeLock();
-  void readSaved();
   void readJournalBeside();
   void setJournalAside(const std::string& why);
   void requireEditable() const;
@@ -109,10 +108,6 @@ struct SessionCommand {
   Session before;
   Session after;
 };
-
-/// The session after an undo or redo to `target`. Runs and view state are not edits: they are kept
-/// from `current`, except for cases that only `target` has (its runs are used) or lacks (no runs).
-Session keepingRuns(const Session& target, const Session& current);
 
 /// The undo stack of a document, of any length. Every step goes through SessionDocument::apply and
 /// thus into the journal before it is shown; a step that throws has no effect.

@@ -28,19 +28,17 @@ fs::path companionFile(const fs::path& session_file, const char* extension) {
 }
 
 /// Options by their difference from the default profile.
-constexpr auto kRunOptions = Codec{[](const LocalizerOptions& options) {
-                                     OptionList list = changedOptions(options, defaultProfile());
-                                     std::sort(list.begin(), list.end());
-                                     return toJson(list);
-                                   },
-                                   [](const JsonReader& json) {
-                                     Config config;
-                                     config.file = json.file();
-                                     config.options = readOptions(json);
-                                     LocalizerOptions options = defaultProfile();
-                                     applyConfig(options, config);
-                                     return options;
-                                   }};
+constexpr auto kRunOptions =
+    Codec{[](const LocalizerOptions& options) {
+            OptionList list = changedOptions(options, defaultProfile());
+            std::sort(list.begin(), list.end());
+            return toJson(list);
+          },
+          [](const JsonReader& json) {
+            LocalizerOptions options = defaultProfile();
+            applyConfig(options, {json.file(), "default", readOptions(json)});
+            return options;
+          }};
 
 /// InputError unless the session has this case.
 void requireCase(const Session& session, const std::string& id, const JsonReader& at) {
@@ -126,7 +124,7 @@ void fields(Archive& archive, Self& view) {
 namespace {
 
 void requireVersion(const JsonReader& json) {
-  if (!json.isObject()) json.fail("not a JSON object");
+  if (!json.value().is_object()) json.fail("not a JSON object");
   const std::string format = json.at("format").text();
   if (format != kSessionFormat)
     json.failMember("format", "is '" + format + "', not '" + kSessionFormat + "'");
@@ -140,20 +138,16 @@ void requireVersion(const JsonReader& json) {
     json.failMember("version", "there is no version " + std::to_string(version));
 }
 
-void readOptionsOf(const JsonReader& json, Session& session) {
-  session.profile = json.at("profile").nonEmptyText();
-  session.options = readOptions(json.at("options"));
-  (void)sessionOptions(session, json.file());  // throws when one does not exist or fit
-}
-
 Session readMembers(const JsonReader& json) {
   requireVersion(json);
   Session session;
-  readOptionsOf(json, session);
-  for (const JsonReader& json_of_one : json.at("cases").elements()) {
-    SessionCase session_case = readSessionCase(json_of_one);
+  session.profile = json.at("profile").nonEmptyText();
+  session.options = readOptions(json.at("options"));
+  (void)sessionOptions(session, json.file());  // throws when one does not exist or fit
+  for (const JsonReader& case_json : json.at("cases").elements()) {
+    SessionCase session_case = readSessionCase(case_json);
     if (session.findCase(session_case.id) != nullptr)
-      json_of_one.failMember("id", "'" + session_case.id + "' is given twice");
+      case_json.failMember("id", "'" + session_case.id + "' is given twice");
     session.cases.push_back(std::move(session_case));
   }
   readAnnotationsOf(json, session);

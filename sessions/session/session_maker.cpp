@@ -68,18 +68,11 @@ std::optional<PoseFile> seedOfFrames(const PoseFrames& frames) {
 std::string labelNote(const PoseFrames& frames, const FrameName& frame) {
   const FrameTree tree = frameTree(frames.reference, frames.transforms);
   const auto chain = tree.chain(kCameraFrame, frame);
-  if (!chain || std::none_of(chain->links.begin(), chain->links.end(), [](const FrameLink& link) {
-        return link.transform->origin == TransformSource::kLabel;
-      }))
-    return "";
+  const auto of_label = [](const FrameLink& link) {
+    return link.transform->origin == TransformSource::kLabel;
+  };
+  if (!chain || std::ranges::none_of(chain->links, of_label)) return "";
   return "the seed is converted from " + frameText(frame) + " by the frames of the image's label";
-}
-
-std::optional<Pose> endEffectorOf(const PoseFrames& frames) {
-  const auto chain =
-      frameTree(frames.reference, frames.transforms).chain(kCameraFrame, kEndEffectorFrame);
-  if (!chain) return std::nullopt;
-  return chain->a_from_b;
 }
 
 /// InputError for a part without a place in the scene, and without a matched part.
@@ -103,21 +96,13 @@ SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const Image
   session_case.id = dataset_case.id;
   session_case.station = dataset_case.station;
   session_case.image = image;
-  session_case.camera = dataset.cameras.at(dataset_case.camera);
-  if (const auto known = dataset.camera_references.find(dataset_case.camera);
-      known != dataset.camera_references.end())
-    session_case.camera_reference = known->second;
-  if (const auto known = dataset.calibration_sigmas.find(dataset_case.camera);
-      known != dataset.calibration_sigmas.end())
-    session_case.calibration_sigma = known->second;
-  if (const auto known = dataset.camera_covariances.find(dataset_case.camera);
-      known != dataset.camera_covariances.end())
-    session_case.camera_covariance = known->second;
+  setCamera(session_case, dataset.cameras.at(dataset_case.camera));
   session_case.parts = parts;
   for (std::size_t i = 0; i < dataset_case.part_states.size(); ++i)
     session_case.parts[i].source.state = dataset_case.part_states[i];
-  session_case.feature_size_m = dataset.stations.at(dataset_case.station).feature_size_m;
-  session_case.mesh_scale_sigma = dataset.stations.at(dataset_case.station).mesh_scale_sigma;
+  const auto& station = dataset.stations.at(dataset_case.station);
+  session_case.feature_size_m = station.feature_size_m;
+  session_case.mesh_scale_sigma = station.mesh_scale_sigma;
   session_case.camera_from_station_seed = dataset_case.seed_camera_from_station;
   session_case.station_frame = dataset_case.station_frame;
   session_case.uncertainty = *dataset_case.uncertainty;
@@ -148,14 +133,21 @@ std::string presetOfAll(const Session& session) {
 
 }  // namespace
 
+std::vector<FrameTransform> readTransforms(const CaseFiles& files) {
+  std::vector<FrameTransform> transforms;
+  for (const fs::path& file : files.transforms)
+    for (FrameTransform& transform : readFrameTransforms(file))
+      transforms.push_back(std::move(transform));
+  return transforms;
+}
+
 ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
   const GrayImage image = readImage(file, eight_bit);
-  ImageInput input;
-  input.source = {wholePath(file), image.file_sha256};
-  input.width = image.width;
-  input.height = image.height;
-  input.eight_bit = eight_bit;
-  input.pixels_sha256 = image.pixels_sha256;
+  ImageInput input{{wholePath(file), image.file_sha256},
+                   image.width,
+                   image.height,
+                   eight_bit,
+                   image.pixels_sha256};
   if (image.label) input.label = image.label->identifiers;
   return input;
 }
@@ -176,27 +168,22 @@ MadeCase makeCase(const CaseFiles& files) {
   const bool has_image = !files.image.empty();
   if (has_image) session_case.image = imageInput(files.image, files.eight_bit);
   const CameraFile camera = readChosenCamera(files.camera, files.image);
-  session_case.camera = camera.camera;
+  setCamera(session_case, camera);
   if (!has_image) {
     session_case.image.width = camera.camera.width;
     session_case.image.height = camera.camera.height;
   }
-  session_case.camera_reference = camera.reference;
-  session_case.calibration_sigma = camera.calibration_sigma;
-  session_case.camera_covariance = camera.covariance;
   session_case.parts = meshInputs(files.parts);
   session_case.feature_size_m = files.feature_size_m;
   session_case.mesh_scale_sigma = files.mesh_scale_sigma;
-  PoseFrames frames{camera.reference};
-  for (const fs::path& file : files.transforms)
-    for (FrameTransform& transform : readFrameTransforms(file))
-      frames.transforms.push_back(std::move(transform));
+  PoseFrames frames{camera.reference, readTransforms(files)};
   if (has_image) addLabelFrames(files.image, camera.reference, frames.transforms);
   session_case.frames = keptFrames(frames.transforms);
   requireScene(session_case, files.parts.empty() ? files.image : files.parts.front().mesh);
-  session_case.camera_from_end_effector = files.camera_from_end_effector;
-  if (!session_case.camera_from_end_effector)
-    session_case.camera_from_end_effector = endEffectorOf(frames);
+  if (const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame))
+    session_case.camera_from_end_effector = chain->a_from_b;
+  if (files.camera_from_end_effector)
+    session_case.camera_from_end_effector = files.camera_from_end_effector;
   session_case.requirement = files.requirement;
   const std::optional<PoseFile> given =
       files.seed.empty() ? seedOfFrames(frames) : readPose(files.seed, frames);
@@ -236,8 +223,7 @@ Session makeSession(const Dataset& dataset, const std::vector<std::string>& case
   std::map<fs::path, ImageInput> images;
   std::map<std::string, std::vector<MeshInput>> parts;
   for (const Case& dataset_case : dataset.cases) {
-    if (!case_ids.empty() &&
-        std::find(case_ids.begin(), case_ids.end(), dataset_case.id) == case_ids.end())
+    if (!case_ids.empty() && std::ranges::find(case_ids, dataset_case.id) == case_ids.end())
       continue;
     if (!parts.contains(dataset_case.station))
       parts[dataset_case.station] = meshInputs(dataset.stations.at(dataset_case.station).parts);

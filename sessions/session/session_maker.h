@@ -42,6 +42,9 @@ struct MadeCase {
   std::vector<std::string> notes;
 };
 
+/// The contents of the case's transform files. InputError.
+std::vector<FrameTransform> readTransforms(const CaseFiles& files);
+
 /// An image as stored in a case. InputError.
 ImageInput imageInput(const std::filesystem::path& file, const ImageReadOptions& eight_bit);
 

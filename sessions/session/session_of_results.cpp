@@ -25,9 +25,7 @@ constexpr int kShareDecimals = 4;
 
 /// The one method that a session can run.
 const MethodFacts& whsOf(const ResultsFacts& facts) {
-  const auto found =
-      std::find_if(facts.methods.begin(), facts.methods.end(),
-                   [](const MethodFacts& method_facts) { return method_facts.method == "whs"; });
+  const auto found = std::ranges::find(facts.methods, "whs", &MethodFacts::method);
   if (found == facts.methods.end())
     throw InputError(facts.file, "it has no runs of the method whs; only these can be repeated");
   if (!found->mesh_of.empty() || !found->mirror.empty())

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/stated_inputs.h"
 
+#include <algorithm>
+
 #include "sessions/io/cameras/frame_tree.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -19,6 +22,21 @@ void addTransform(std::vector<FrameTransform>& frames, FrameTransform transform)
   frames.push_back(std::move(transform));
 }
 
+/// Where none is stated: the principal point to half a pixel of 2048, or as much of other images.
+CalibrationSigma assumedCalibration(const Camera& camera) {
+  CalibrationSigma sigma;
+  sigma.principal_point_px *= std::max(camera.width, camera.height) / 2048.0;
+  return sigma;
+}
+
+const char* sourceText(bool stated) { return stated ? "" : ", assumed"; }
+
+CalibrationSigma calibrationOf(const SessionCase& session_case) {
+  if (session_case.camera_covariance)
+    return calibrationSigmaOf(session_case.camera, *session_case.camera_covariance);
+  return session_case.calibration_sigma.value_or(assumedCalibration(session_case.camera));
+}
+
 }  // namespace
 
 Session withStated(const Session& session, const std::string& case_id, const StatedInputs& stated) {
@@ -32,6 +50,39 @@ Session withStated(const Session& session, const std::string& case_id, const Sta
     changed.camera_from_end_effector = stated.camera_from_end_effector;
   if (stated.requirement) changed.requirement = stated.requirement;
   return withCase(session, std::move(changed));
+}
+
+InputSigmas::InputSigmas(const SessionCase& session_case)
+    : mesh_scale(session_case.mesh_scale_sigma.value_or(kAssumedMeshScaleSigma)),
+      calibration(calibrationOf(session_case)),
+      mesh_scale_stated(session_case.mesh_scale_sigma.has_value()),
+      calibration_stated(session_case.calibration_sigma || session_case.camera_covariance),
+      calibration_derived(session_case.camera_covariance.has_value()) {}
+
+std::string meshScaleText(const InputSigmas& sigmas) {
+  return threeDigits(100.0 * sigmas.mesh_scale) + " %" + sourceText(sigmas.mesh_scale_stated);
+}
+
+std::string calibrationText(const InputSigmas& sigmas) {
+  return threeDigits(100.0 * sigmas.calibration.focal_relative) + " % and " +
+         threeDigits(sigmas.calibration.principal_point_px) + " px" +
+         (sigmas.calibration_derived ? ", by the camera's covariance"
+                                     : sourceText(sigmas.calibration_stated));
+}
+
+Session withInputSigmas(const Session& session, const std::string& case_id,
+                        const std::optional<double>& mesh_scale_sigma,
+                        const std::optional<CalibrationSigma>& calibration_sigma) {
+  const SessionCase* chosen = session.findCase(case_id);
+  if (chosen == nullptr) return session;
+  Session next = session;
+  for (const auto& session_case : session.cases) {
+    SessionCase changed = *session_case;
+    if (sameMeshes(*session_case, *chosen)) changed.mesh_scale_sigma = mesh_scale_sigma;
+    if (session_case->camera == chosen->camera) changed.calibration_sigma = calibration_sigma;
+    if (!(changed == *session_case)) next = withCase(next, std::move(changed));
+  }
+  return next;
 }
 
 }  // namespace boresight::sessions

@@ -32,13 +32,8 @@ Pose rigSeed(const SessionCase& first) {
 }
 
 View viewOf(const LoadedCase& loaded) {
-  View view;
-  view.image = loaded.image.view();
-  view.ignore = loaded.ignore ? &loaded.ignore_bits : nullptr;
-  view.camera = loaded.source.camera;
-  view.mesh = loaded.scene.view();
-  view.camera_from_rig = loaded.source.rig->camera_from_rig;
-  return view;
+  return {loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr, loaded.source.camera,
+          loaded.scene.view(), loaded.source.rig->camera_from_rig};
 }
 
 std::vector<LocalizationTrace> runLoaded(const LoadedViews& loaded, const LocalizerOptions& options,
@@ -72,12 +67,7 @@ std::string whyAlone(const Session& session, const std::string& case_id) {
 
 ViewsProblem LoadedViews::problem() const {
   const LocalizationProblem first = cases.front()->problem();
-  ViewsProblem views_problem;
-  views_problem.views = views;
-  views_problem.rig_from_station_seed = rigSeed(cases.front()->source);
-  views_problem.uncertainty = first.uncertainty;
-  views_problem.end_effector_in_camera_m = first.end_effector_in_camera_m;
-  return views_problem;
+  return {views, rigSeed(cases.front()->source), first.uncertainty, first.end_effector_in_camera_m};
 }
 
 std::vector<std::string> LoadedViews::ids() const {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 #include <utility>
@@ -19,28 +18,12 @@ constexpr double kStripPanelHeight = 170.0;
 constexpr double kStripFootHeight = 24.0;
 constexpr double kAxisWidth = 30.0;
 constexpr double kMark = 0.8;
-constexpr double kStripLabelSize = 6.5;
 constexpr std::size_t kMostMarks = 400;
 constexpr double kUnit = 0.01;  ///< mm or mrad: the scale is linear below
 constexpr double kTicks[] = {0.01, 0.1, 1.0, 10.0, 100.0, 1000.0};
 
 constexpr PdfColor kGreen = {0.00, 0.62, 0.45};
 constexpr PdfColor kRed = {0.80, 0.15, 0.10};
-
-struct StripAxis {
-  const char* label;
-  double PoseError::*part;
-  RequirementLimit limit;
-  bool is_signed;
-};
-
-const StripAxis kStripAxes[] = {
-    {"normal error, mm", &PoseError::normal_mm,
-     [](const Requirement& required) { return required.normal_mm; }, true},
-    {"lateral error, mm", &PoseError::lateral_mm,
-     [](const Requirement& required) { return required.lateral_mm; }, false},
-    {"rotation error, mrad", &PoseError::rotation_mrad, &rotationLimit_mrad, false},
-};
 
 /// Errors of the seeds, each once.
 std::vector<double> seedErrors(const StationRuns& row, double PoseError::*part) {
@@ -89,26 +72,17 @@ void drawMarks(PdfCanvas& canvas, const Panel& panel, std::size_t strip,
   }
 }
 
-void drawTick(PdfCanvas& canvas, const Panel& panel, double value) {
-  const double y = panel.pageY(value);
-  canvas.line(panel.area.x, y, panel.area.right(), y, kPaperGrid, 0.4);
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  canvas.text(panel.area.x - kAxisWidth, y - 4.0, kAxisWidth - 2.0, text,
-              {kStripLabelSize, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
-}
-
-void drawScale(PdfCanvas& canvas, const Panel& panel, const StripAxis& axis,
+void drawScale(PdfCanvas& canvas, const Panel& panel, const ErrorAxis& axis,
                const std::optional<double>& limit) {
   const auto within = [&](double value) {
     const double at = signedDecades(value, kUnit);
     return at >= panel.low && at <= panel.high;
   };
-  drawTick(canvas, panel, 0.0);
+  drawTickY(canvas, panel.area, panel.pageY(0.0), 0.0);
   for (const double value : kTicks)
     for (const double sign : {-1.0, 1.0})
       if ((sign > 0.0 || axis.is_signed) && within(sign * value))
-        drawTick(canvas, panel, sign * value);
+        drawTickY(canvas, panel.area, panel.pageY(sign * value), sign * value);
   canvas.frame(panel.area, kFaintInk);
   if (!limit) return;
   for (const double sign : {-1.0, 1.0}) {
@@ -124,7 +98,7 @@ void drawName(PdfCanvas& canvas, const Panel& panel, std::size_t strip, const st
 }
 
 void drawPanel(PdfCanvas& canvas, const PdfBox& box, const StationRuns& row,
-               const StripAxis& axis) {
+               const ErrorAxis& axis) {
   const std::vector<double> seeds = seedErrors(row, axis.part);
   std::vector<ErrorStrip> strips;
   double most = std::abs(sharedLimit(row.all, axis.limit).value_or(kUnit));
@@ -176,14 +150,14 @@ Figure errorStripsFigure(std::span<const RunResult> runs, CanvasFormat format) {
                        kStripPanelHeight * static_cast<double>(rows.size()));
   const double width = PdfCanvas::kWidth - 2.0 * kStripMargin;
   canvas.text(kStripMargin, kStripMargin, width, title, {10.0, true, false, kInk, 1});
-  const double panel_width = width / static_cast<double>(std::size(kStripAxes));
+  const double panel_width = width / static_cast<double>(std::size(kErrorAxes));
   double y = kStripMargin + kStripTitleHeight;
   for (const StationRuns& row : rows) {
-    for (std::size_t i = 0; i < std::size(kStripAxes); ++i)
+    for (std::size_t i = 0; i < std::size(kErrorAxes); ++i)
       drawPanel(canvas,
                 {kStripMargin + panel_width * static_cast<double>(i), y, panel_width - 6.0,
                  kStripPanelHeight},
-                row, kStripAxes[i]);
+                row, kErrorAxes[i]);
     y += kStripPanelHeight;
   }
   canvas.text(kStripMargin, y, width,

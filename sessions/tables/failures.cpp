@@ -76,11 +76,6 @@ std::string verdictText(Astray astray) {
   return kTexts[static_cast<std::size_t>(astray)];
 }
 
-std::string withFullStop(std::string sentence) {
-  if (!sentence.empty() && sentence.back() != '.') sentence += '.';
-  return sentence;
-}
-
 /// Of a method that was deliberately given another mesh.
 std::string meshNote(const MethodFacts& method) {
   if (!method.mesh_of.empty()) return "WRONG mesh of " + method.mesh_of;
@@ -98,8 +93,9 @@ std::vector<Failure> failuresOfFile(const std::filesystem::path& file,
     if (failed && filter.takes(run))
       failures.push_back({run, facts.dataset.dataset, notes[run.method]});
   });
-  StepReader reader(file);
-  for (Failure& failure : failures) failure.run.steps = reader.stepsOf(failure.run);
+  std::vector<RunResult*> runs;
+  for (Failure& failure : failures) runs.push_back(&failure.run);
+  readSteps(file, runs);
   return failures;
 }
 
@@ -119,6 +115,12 @@ struct Inputs {
   /// By placed parts; a list, whose elements stay in place.
   std::list<std::pair<std::vector<PartSource>, SceneMesh>> scenes;
 
+  const Dataset& datasetOf(const std::filesystem::path& file) {
+    const auto known = datasets.find(file);
+    return known != datasets.end() ? known->second
+                                   : datasets.emplace(file, readDataset(file)).first->second;
+  }
+
   const SceneMesh& sceneOf(const Dataset& dataset, const Case& one) {
     const FrameTree frames = framesOf(dataset, one);
     std::vector<PartSource> parts;
@@ -130,14 +132,8 @@ struct Inputs {
   }
 };
 
-template <class Key, class Value, class Read>
-const Value& readOnce(std::map<Key, Value>& known, const Key& key, Read&& read) {
-  const auto found = known.find(key);
-  return found != known.end() ? found->second : known.emplace(key, read()).first->second;
-}
-
-/// What the run came to. One that did not complete hands its seed back, which shows nothing: its
-/// iteration nearest to the truth, the first one where it was led away, or the last without truth.
+/// The final pose of a completed run. A failed run returns its seed: instead its iteration nearest
+/// to the truth, its first one where none was nearer than the seed, or its last one without truth.
 OverlayLayer reached(const RunResult& run) {
   if (run.completed) return {"end", run.camera_from_station, kResultColor, true};
   const auto layer = [](const char* name, const RunStep& step) {
@@ -153,8 +149,7 @@ OverlayLayer reached(const RunResult& run) {
 ColorImage pictureOf(const Failure& failure, Inputs& inputs, int width_px, int height_px) {
   if (std::filesystem::is_directory(failure.dataset))
     throw InputError(failure.dataset, "it is a folder: pictures are made of a dataset.json only");
-  const Dataset& dataset =
-      readOnce(inputs.datasets, failure.dataset, [&] { return readDataset(failure.dataset); });
+  const Dataset& dataset = inputs.datasetOf(failure.dataset);
   const Case* one = dataset.findCase(failure.run.case_id);
   if (one == nullptr) throw InputError(failure.dataset, "it has no case " + failure.run.case_id);
   const GrayImage image = readCaseImage(dataset, *one);
@@ -168,7 +163,7 @@ ColorImage pictureOf(const Failure& failure, Inputs& inputs, int width_px, int h
   }
   if (!failure.run.steps.empty())  // over the truth, which shows on both sides of it
     layers.push_back(reached(failure.run));
-  return stationPicture(image.view(), dataset.cameras.at(one->camera), scene.view(), framed, layers,
+  return stationPicture(image.view(), dataset.cameraOf(*one), scene.view(), framed, layers,
                         width_px, height_px);
 }
 
@@ -254,7 +249,8 @@ Astray whereAstray(const RunResult& run) {
 }
 
 std::string failureStory(const RunResult& run) {
-  std::string story = withFullStop(endText(run));
+  std::string story = endText(run);
+  if (!story.empty() && !story.ends_with('.')) story += '.';
   if (run.seed_error && !run.steps.empty()) story += " " + wayText(run);
   if (const std::string verdict = verdictText(whereAstray(run)); !verdict.empty())
     story += " " + verdict;

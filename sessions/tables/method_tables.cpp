@@ -130,12 +130,11 @@ std::string paperName(const std::string& method) { return method + " (paper)"; }
 std::vector<std::vector<TableCell>> paperErrorRows(const std::string& station) {
   constexpr int kRuns = 2000;
   std::vector<std::vector<TableCell>> rows;
-  for (const PaperErrors& row : kPaperErrors) {
-    if (row.station != station) continue;
+  for (const PaperErrors& row : paperErrors(station)) {
     const bool any = row.completed_percent > 0.0;
     const bool is_seed = std::string(row.method) == kSeed;
     const CountedShare wrong = paperShare(row.completed_percent - row.success_percent, kRuns);
-    rows.push_back({row.station, "near", paperName(row.method), std::int64_t{kRuns},
+    rows.push_back({station, "near", paperName(row.method), std::int64_t{kRuns},
                     std::int64_t{kRuns}, leastCell(paperShare(row.completed_percent, kRuns)),
                     leastCell(paperShare(row.success_percent, kRuns)),
                     is_seed ? kNoShare : mostCell(wrong), std::nullopt, kNoShare,
@@ -212,6 +211,12 @@ std::optional<double> CountedShare::leastPercent() const {
 std::optional<double> CountedShare::mostPercent() const {
   if (runs == 0) return std::nullopt;
   return 100.0 * upperBound(count, runs);
+}
+
+std::vector<TableColumn> groupColumns(const std::vector<TableColumn>& further) {
+  std::vector<TableColumn> columns = {{"station"}, {"range"}, {"method"}};
+  columns.insert(columns.end(), further.begin(), further.end());
+  return columns;
 }
 
 const char* rangeText(bool far) { return far ? "far" : "near"; }
@@ -315,16 +320,13 @@ std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs) {
 Table errorTable(std::span<const RunResult> runs, bool with_paper) {
   Table table{"errors",
               "Errors per station and method, over completed runs",
-              {{"station"},
-               {"range"},
-               {"method"},
-               {"images"},
-               {"runs"},
-               {"completed %", kLeast, 1},
-               {"success %", kLeast, 1},
-               {"false positives %", kMost, 1},
-               {"gross"},
-               {"iterations", {"mean", "max"}, 1}},
+              groupColumns({{"images"},
+                            {"runs"},
+                            {"completed %", kLeast, 1},
+                            {"success %", kLeast, 1},
+                            {"false positives %", kMost, 1},
+                            {"gross"},
+                            {"iterations", {"mean", "max"}, 1}}),
               {},
               {"Errors are those of the end effector, or of the camera where a case has none.",
                "The maximum of the normal error is that of its absolute value.", kBoundsNote}};
@@ -367,15 +369,12 @@ Table summaryTable(std::span<const RunResult> runs) {
 Table successTable(std::span<const RunResult> runs, bool with_paper) {
   Table table{"success",
               "Completed and successful runs, percent",
-              {{"station"},
-               {"range"},
-               {"method"},
-               {"runs"},
-               {"completed %", kLeast, 1},
-               {"success %", kLeast, 1},
-               {"at limit"},
-               {"completed % with limit", {}, 1},
-               {"success % with limit", {}, 1}},
+              groupColumns({{"runs"},
+                            {"completed %", kLeast, 1},
+                            {"success %", kLeast, 1},
+                            {"at limit"},
+                            {"completed % with limit", {}, 1},
+                            {"success % with limit", {}, 1}}),
               {},
               {"Within: completed and within what the requirement says of that error alone.",
                "With limit: runs that ended at the limit of iterations count with their last pose.",
@@ -401,7 +400,7 @@ Table toleranceTable(std::span<const RunResult> runs) {
   constexpr std::array<double, 6> kFactors = {0.1, 0.25, 0.5, 1.0, 2.0, 3.0};
   Table table{"tolerance",
               "Success, percent, against multiples of the requirement",
-              {{"station"}, {"range"}, {"method"}},
+              groupColumns({}),
               {},
               {}};
   for (const double factor : kFactors)

@@ -95,6 +95,8 @@ struct RunGroup {
 /// By station, near before far, and method. Runs whose input was rejected are left out.
 std::vector<RunGroup> runGroups(std::span<const RunResult> runs);
 MethodFigures figuresOf(std::span<const RunResult* const> runs);
+/// Columns of a group's station, range and method, and further ones.
+std::vector<TableColumn> groupColumns(const std::vector<TableColumn>& further);
 /// "near", "far".
 const char* rangeText(bool far);
 

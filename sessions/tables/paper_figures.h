@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace boresight::sessions {
 
@@ -19,7 +20,6 @@ using PaperStatistics = std::array<double, 3>;
 
 /// A row of Table I: synthetic images, near. Errors are all 0 where no run completed.
 struct PaperErrors {
-  const char* station;
   const char* method;
   double completed_percent;
   double success_percent;
@@ -50,7 +50,8 @@ struct PaperTimes {
   double total_min;
 };
 
-extern const std::span<const PaperErrors> kPaperErrors;
+/// The rows of a station, "bc" or "os"; empty for others.
+std::span<const PaperErrors> paperErrors(std::string_view station);
 extern const std::span<const PaperSuccess> kPaperSuccess;
 extern const std::span<const PaperTimes> kPaperTimes;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -89,21 +90,6 @@ PdfPlot emptyPlot(const StationRuns& station, const std::string& x_label,
   return plot;
 }
 
-/// One of the three errors that are judged.
-struct ErrorAxis {
-  const char* label;
-  double PoseError::*part;
-  RequirementLimit limit;
-};
-
-const ErrorAxis kAxes[] = {
-    {"normal error, mm (absolute)", &PoseError::normal_mm,
-     [](const Requirement& required) { return required.normal_mm; }},
-    {"lateral error, mm", &PoseError::lateral_mm,
-     [](const Requirement& required) { return required.lateral_mm; }},
-    {"rotation error, mrad", &PoseError::rotation_mrad, &rotationLimit_mrad},
-};
-
 /// From nothing at `from` on; a method of which nothing completed stays there.
 PdfSeries staircase(PdfSeries style, const CurvePoints& points, double from, double until) {
   style.marks = false;
@@ -117,7 +103,8 @@ PdfSeries staircase(PdfSeries style, const CurvePoints& points, double from, dou
 PdfPlot errorPlot(const StationRuns& station, const ErrorAxis& axis, const Styles& styles) {
   constexpr double kLow = 1e-3;
   constexpr double kHigh = 1e3;
-  PdfPlot plot = emptyPlot(station, axis.label, "% of runs at or below");
+  PdfPlot plot = emptyPlot(station, axis.label + std::string(axis.is_signed ? " (absolute)" : ""),
+                           "% of runs at or below");
   plot.log_x = true;
   plot.x_range = {kLow, kHigh};
   plot.y_range = {0.0, 104.0};
@@ -163,18 +150,21 @@ PdfPlot seedPlot(const StationRuns& station, SeedMeasure measure, const Styles& 
   return plot;
 }
 
+/// One coordinate of all points.
+std::vector<double> coordinates(const CurvePoints& points, std::size_t index) {
+  std::vector<double> values;
+  for (const auto& point : points) values.push_back(point[index]);
+  return values;
+}
+
 /// Every run faintly small, and where the middle of both lies.
 void addTimes(const Members& members, const PdfSeries& style, PdfPlot& plot) {
   PdfSeries each = style;
   each.line = false;
   each.mark_radius = 0.7;
   each.points = timeAgainstError(members);
-  std::vector<double> seconds;
-  std::vector<double> errors;
-  for (const auto& point : each.points) {
-    seconds.push_back(point[0]);
-    errors.push_back(point[1]);
-  }
+  const std::vector<double> seconds = coordinates(each.points, 0);
+  const std::vector<double> errors = coordinates(each.points, 1);
   plot.series.push_back(std::move(each));
   PdfSeries middle = style;
   middle.line = false;
@@ -201,16 +191,12 @@ std::array<double, 2> decades(const std::vector<double>& values) {
 
 /// All panels have the same axes.
 void takeSharedAxes(const std::vector<StationRuns>& stations, PdfPlot& plot) {
-  std::vector<double> seconds;
-  std::vector<double> errors;
+  CurvePoints points;
   for (const StationRuns& station : stations)
-    for (const auto& point : timeAgainstError(station.all)) {
-      seconds.push_back(point[0]);
-      errors.push_back(point[1]);
-    }
+    std::ranges::move(timeAgainstError(station.all), std::back_inserter(points));
   plot.log_x = plot.log_y = true;
-  plot.x_range = decades(seconds);
-  plot.y_range = decades(errors);
+  plot.x_range = decades(coordinates(points, 0));
+  plot.y_range = decades(coordinates(points, 1));
 }
 
 }  // namespace
@@ -287,7 +273,7 @@ std::vector<Figure> resultFigures(std::span<const RunResult> runs, CanvasFormat 
   const Styles styles(runs);
   std::vector<PdfPlot> errors, tolerances, seeds, times;
   for (const StationRuns& station : stations) {
-    for (const ErrorAxis& axis : kAxes) errors.push_back(errorPlot(station, axis, styles));
+    for (const ErrorAxis& axis : kErrorAxes) errors.push_back(errorPlot(station, axis, styles));
     tolerances.push_back(tolerancePlot(station, styles));
     for (const SeedMeasure measure : {SeedMeasure::kDistance_mm, SeedMeasure::kAngle_mrad})
       seeds.push_back(seedPlot(station, measure, styles));

@@ -52,28 +52,12 @@ std::string shownName(const std::vector<ResultsFacts>& files, const ResultsFacts
 
 /// The iterations of runs that ended at the limit of iterations: tables judge their last pose.
 void readStepsAtLimit(const std::filesystem::path& file, std::span<RunResult> runs) {
-  StepReader reader(file);
+  std::vector<RunResult*> at_limit;
   for (RunResult& run : runs)
     if (run.status == localizationStatusText(LocalizationStatus::kIterationLimit))
-      run.steps = reader.stepsOf(run);
+      at_limit.push_back(&run);
+  readSteps(file, at_limit);
 }
-
-/// Which file holds a run, so that none counts twice.
-class SeenRuns {
- public:
-  void note(const ResultsFacts& file, const RunResult& run) {
-    const auto [at, is_new] = seen_.emplace(
-        std::tuple(file.dataset.dataset_sha256, run.case_id, run.reseed, run.method), &file);
-    if (!is_new)
-      throw InputError(file.file, "run of " + run.case_id,
-                       "it is also in " + at->second->file.string() +
-                           ": give one of the files, or join them with `whs merge`");
-  }
-
- private:
-  std::map<std::tuple<std::string, std::string, std::int32_t, std::string>, const ResultsFacts*>
-      seen_;
-};
 
 RunSide sideOf(const RunResult& run) {
   RunSide side;
@@ -154,7 +138,9 @@ ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
                           const ResultsFilter& filter) {
   ResultsSet set;
   for (const std::filesystem::path& file : files) set.files.push_back(readResultsFacts(file));
-  SeenRuns seen;
+  // Which file holds a run, so that none counts twice.
+  std::map<std::tuple<std::string, std::string, std::int32_t, std::string>, const ResultsFacts*>
+      seen;
   for (const ResultsFacts& file : set.files) {
     std::map<std::string, std::string> shown;
     for (const MethodFacts& method : file.methods) {
@@ -169,7 +155,12 @@ ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
     readStepsAtLimit(file.file, added);
     for (RunResult& run : added) {
       if (const auto name = shown.find(run.method); name != shown.end()) run.method = name->second;
-      seen.note(file, run);
+      const auto [at, is_new] = seen.emplace(
+          std::tuple(file.dataset.dataset_sha256, run.case_id, run.reseed, run.method), &file);
+      if (!is_new)
+        throw InputError(file.file, "run of " + run.case_id,
+                         "it is also in " + at->second->file.string() +
+                             ": give one of the files, or join them with `whs merge`");
     }
   }
   return set;

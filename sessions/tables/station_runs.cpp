@@ -6,6 +6,14 @@
 
 namespace boresight::sessions {
 
+const std::array<ErrorAxis, 3> kErrorAxes = {{
+    {"normal error, mm", &PoseError::normal_mm,
+     [](const Requirement& required) { return required.normal_mm; }, true},
+    {"lateral error, mm", &PoseError::lateral_mm,
+     [](const Requirement& required) { return required.lateral_mm; }, false},
+    {"rotation error, mrad", &PoseError::rotation_mrad, &rotationLimit_mrad, false},
+}};
+
 std::vector<StationRuns> stationRuns(std::span<const RunResult> runs) {
   std::map<std::pair<std::string, bool>, StationRuns> stations;
   for (RunGroup& group : runGroups(runs)) {

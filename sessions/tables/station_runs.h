@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,16 @@ std::vector<StationRuns> stationRuns(std::span<const RunResult> runs);
 
 /// A limit of a requirement; empty when the requirement lacks it.
 using RequirementLimit = std::optional<double> (*)(const Requirement&);
+/// One of the three errors that are judged.
+struct ErrorAxis {
+  const char* label;
+  double PoseError::*part;
+  RequirementLimit limit;
+  bool is_signed;
+};
+/// Normal, lateral, rotation.
+extern const std::array<ErrorAxis, 3> kErrorAxes;
+
 /// The limit where all runs share it; empty when they differ.
 std::optional<double> sharedLimit(std::span<const RunResult* const> runs, RequirementLimit limit);
 

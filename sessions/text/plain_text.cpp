@@ -2,8 +2,11 @@
 #include "sessions/text/plain_text.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdarg>
 #include <cstdint>
+#include <cstdio>
 
 namespace boresight::sessions {
 namespace {
@@ -71,6 +74,45 @@ std::string_view trimmed(std::string_view text) {
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+std::string listText(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string countText(std::int64_t count, const std::string& item) {
+  return std::to_string(count) + " " + item + (count == 1 ? "" : "s");
+}
+
+std::string sizeText(std::int64_t width, std::int64_t height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+std::string asSentence(std::string clause) {
+  if (clause.empty()) return clause;
+  if (clause.front() >= 'a' && clause.front() <= 'z')
+    clause.front() = static_cast<char>(clause.front() - 'a' + 'A');
+  return clause.ends_with('.') ? clause : clause + ".";
+}
+
+std::string formatText(const char* pattern, ...) {
+  std::array<char, 640> text{};
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+std::string threeDigits(double value) { return formatText("%.3g", value); }
 
 std::string lowerCase(std::string_view text) {
   std::string lower(text);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sanitizes text from outside (names, comments, paths) for printing.
+// Text from outside (names, comments, paths) sanitized for printing, and short texts for sentences.
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace boresight::sessions {
 
@@ -22,6 +24,27 @@ std::string oneLine(std::string_view text);
 
 /// The text without leading and trailing blanks, tabs and line ends.
 std::string_view trimmed(std::string_view text);
+
+/// Several texts as one, separated by ", ".
+std::string joined(const std::vector<std::string>& texts);
+
+/// "A", "A and B", "A, B and C".
+std::string listText(const std::vector<std::string>& names);
+
+/// "1 case", "2 cases".
+std::string countText(std::int64_t count, const std::string& item);
+
+/// An image's size in pixels: "1024 x 768".
+std::string sizeText(std::int64_t width, std::int64_t height);
+
+/// A clause with its first letter in upper case and a full stop at its end; "" stays "".
+std::string asSentence(std::string clause);
+
+/// As printf, at most 639 characters.
+[[gnu::format(printf, 1, 2)]] std::string formatText(const char* pattern, ...);
+
+/// "0.02": three significant digits.
+std::string threeDigits(double value);
 
 /// A to Z as a to z, and the reverse, in any locale.
 std::string lowerCase(std::string_view text);

@@ -2,10 +2,7 @@
 #include "sessions/text/text_table.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "sessions/text/plain_text.h"
 
@@ -28,9 +25,7 @@ bool beginsFormula(const std::string& text) {
 
 std::string fixedText(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+  return formatText("%.*f", decimals, value);
 }
 
 std::string percentText(double share, int decimals) {
@@ -56,12 +51,10 @@ std::string TextTable::text() const {
       const std::string padding(widths[i] - cell.size(), ' ');
       line += (i > 0 ? "  " : "") + (i == 0 ? cell + padding : padding + cell);
     }
+    const std::size_t width = line.size();  // of the whole table
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
-    if (r > 0) continue;
-    std::size_t total = 0;
-    for (const std::size_t width : widths) total += width + 2;
-    text += std::string(total > 2 ? total - 2 : 0, '-') + "\n";
+    if (r == 0) text += std::string(width, '-') + "\n";
   }
   return text;
 }

@@ -23,10 +23,10 @@ struct Alternative {
   std::int32_t number = 1;      ///< in its iteration, of its origin or of its kind; from 1
   bool chosen = false;          ///< the run continued with it
   bool has_pose = false;        ///< else there is nothing to draw
-  Pose camera_from_station;
+  Pose camera_from_station{};
   /// The pose with which the run continued in that iteration; for a competing pose, the run's
   /// result.
-  Pose camera_from_station_chosen;
+  Pose camera_from_station_chosen{};
   double apart_m = kUnknown;  ///< between the two, of the station's origin
   double apart_rad = kUnknown;
   double roll_rad = kUnknown;

@@ -13,8 +13,16 @@
 #include <vector>
 
 #include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
 
 namespace boresight::sessions {
+
+/// The unsigned integer of a number's size.
+template <class T>
+using BitsOf = std::conditional_t<
+    sizeof(T) == 8, std::uint64_t,
+    std::conditional_t<sizeof(T) == 4, std::uint32_t,
+                       std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
 
 /// Big-endian bytes of numbers, texts and lists. ArchiveReader has the same members, so that one
 /// description of a record's fields both writes and reads it.
@@ -22,15 +30,9 @@ class ArchiveWriter {
  public:
   template <class T>
   void number(const T& value) {
-    if constexpr (std::is_same_v<T, double>) {
-      put(std::bit_cast<std::uint64_t>(value));
-    } else if constexpr (std::is_same_v<T, float>) {
-      put(std::bit_cast<std::uint32_t>(value));
-    } else if constexpr (std::is_same_v<T, bool>) {
-      put(static_cast<std::uint8_t>(value));
-    } else {
-      put(static_cast<std::make_unsigned_t<T>>(value));
-    }
+    const std::uint64_t bits = std::bit_cast<BitsOf<T>>(value);
+    for (std::size_t i = sizeof(T); i-- > 0;)
+      bytes_.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
   }
   /// An enumeration whose last value is `last`.
   template <class E>
@@ -51,12 +53,6 @@ class ArchiveWriter {
   std::vector<std::uint8_t>& bytes() { return bytes_; }
 
  private:
-  template <class U>
-  void put(U value) {
-    for (std::size_t i = sizeof(U); i-- > 0;)
-      bytes_.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i)));
-  }
-
   std::vector<std::uint8_t> bytes_;
 };
 
@@ -70,15 +66,14 @@ class ArchiveReader {
 
   template <class T>
   void number(T& value) {
-    if constexpr (std::is_same_v<T, double>) {
-      value = std::bit_cast<double>(take<std::uint64_t>());
-    } else if constexpr (std::is_same_v<T, float>) {
-      value = std::bit_cast<float>(take<std::uint32_t>());
-    } else if constexpr (std::is_same_v<T, bool>) {
-      value = take<std::uint8_t>() != 0;
-    } else {
-      value = static_cast<T>(take<std::make_unsigned_t<T>>());
-    }
+    require(sizeof(T) <= bytes_.size() - place_, "truncated");
+    const auto bits =
+        static_cast<BitsOf<T>>(readUnsigned(bytes_, place_, static_cast<int>(sizeof(T)), true));
+    place_ += sizeof(T);
+    if constexpr (std::is_same_v<T, bool>)
+      value = bits != 0;
+    else
+      value = std::bit_cast<T>(bits);
   }
   template <class E>
   void choice(E& value, E last) {
@@ -108,15 +103,6 @@ class ArchiveReader {
   bool atEnd() const { return place_ == bytes_.size(); }
 
  private:
-  template <class U>
-  U take() {
-    require(sizeof(U) <= bytes_.size() - place_, "truncated");
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(U); ++i) value = value << 8 | bytes_[place_ + i];
-    place_ += sizeof(U);
-    return static_cast<U>(value);
-  }
-
   std::filesystem::path file_;
   std::span<const std::uint8_t> bytes_;
   std::size_t place_ = 0;

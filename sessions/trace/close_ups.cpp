@@ -59,9 +59,8 @@ Cells cellsOf(const std::vector<const Place*>& places, double side_px) {
 /// At least one place was found.
 CloseUp bestOf(const std::vector<const Place*>& places, double side_px) {
   const Cells cells = cellsOf(places, side_px);
-  const auto best = std::max_element(cells.begin(), cells.end(), [](const auto& a, const auto& b) {
-    return cornerness(a.second) < cornerness(b.second);
-  });
+  const auto best =
+      std::ranges::max_element(cells, {}, [](const auto& cell) { return cornerness(cell.second); });
   CloseUp close_up;
   std::vector<double> distances_px;
   for (const Place* place : best->second) {

@@ -20,6 +20,8 @@ constexpr double kLeastAlong_px = 0.15;
 constexpr double kCorner_px = 1.8;         ///< between ends that meet
 constexpr double kLeastCosine = 0.6;       ///< between the normals of neighbours
 constexpr double kStraightCosine = 0.985;  ///< above it there is no corner
+/// A line's corners are left out where the line then moves by less than this.
+constexpr double kLineTolerance_px = 0.03;
 constexpr int kNone = -1;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -30,8 +32,11 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 struct Node {
   Eigen::Vector2d place_px;
   Eigen::Vector2d normal;
+  int x = 0, y = 0;                          ///< its pixel
   std::array<int, 2> next = {kNone, kNone};  ///< along the tangent, and against it
+  bool visited = false;
 
+  int& ahead(int side) { return next[static_cast<std::size_t>(side)]; }
   Eigen::Vector2d tangent(int side) const {
     return side == 0 ? Eigen::Vector2d(-normal.y(), normal.x())
                      : Eigen::Vector2d(normal.y(), -normal.x());
@@ -48,34 +53,34 @@ class Joiner {
     for (const EdgePixel& pixel : render.pixels) addNode(pixel);
     findNeighbours();
     joinEnds();
-    visited_.assign(nodes_.size(), false);
   }
 
   std::vector<std::vector<Eigen::Vector2d>> lines() {
     std::vector<std::vector<Eigen::Vector2d>> result;
-    const auto count = static_cast<int>(nodes_.size());
-    for (int i = 0; i < count; ++i)  // those with an end, then closed ones
-      if (!visited(i) && (link(i, 0) == kNone || link(i, 1) == kNone)) result.push_back(trace(i));
-    for (int i = 0; i < count; ++i)
-      if (!visited(i)) result.push_back(trace(i));
+    for (const bool closed : {false, true})  // those with an end first
+      for (int i = 0; i < count(); ++i)
+        if (!node(i).visited && (closed || link(i, 0) == kNone || link(i, 1) == kNone))
+          result.push_back(trace(i));
     return result;
   }
 
  private:
   Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
-  bool visited(int index) const { return visited_[static_cast<std::size_t>(index)]; }
+  int count() const { return static_cast<int>(nodes_.size()); }
 
+  std::size_t cellOf(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
   int nodeAt(int x, int y) const {
-    if (x < 0 || y < 0 || x >= width_ || y >= height_) return kNone;
-    return node_at_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                    static_cast<std::size_t>(x)];
+    return x < 0 || y < 0 || x >= width_ || y >= height_ ? kNone : node_at_[cellOf(x, y)];
   }
 
   /// Calls with each node around a place but the given one.
   template <class Visit>
   void forNeighbours(int index, Visit&& visit) {
-    const int x = pixel_x_[static_cast<std::size_t>(index)];
-    const int y = pixel_y_[static_cast<std::size_t>(index)];
+    const int x = node(index).x;
+    const int y = node(index).y;
     for (int v = y - kReach; v <= y + kReach; ++v)
       for (int u = x - kReach; u <= x + kReach; ++u)
         if (const int other = nodeAt(u, v); other != kNone && other != index) visit(other);
@@ -94,11 +99,8 @@ class Joiner {
             std::abs(node(other).normal.dot(normal)) > kLeastCosine)
           return;
       }
-    node_at_[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width_) +
-             static_cast<std::size_t>(pixel.x)] = static_cast<int>(nodes_.size());
-    nodes_.push_back({place, normal, {kNone, kNone}});
-    pixel_x_.push_back(pixel.x);
-    pixel_y_.push_back(pixel.y);
+    node_at_[cellOf(pixel.x, pixel.y)] = count();
+    nodes_.push_back({place, normal, pixel.x, pixel.y});
   }
 
   /// The nearest place ahead that the line's direction leads to.
@@ -123,31 +125,28 @@ class Joiner {
   }
 
   void findNeighbours() {
-    const auto count = static_cast<int>(nodes_.size());
-    for (int i = 0; i < count; ++i)
-      for (int side = 0; side < 2; ++side)
-        node(i).next[static_cast<std::size_t>(side)] = neighbourOf(i, side);
+    for (int i = 0; i < count(); ++i)
+      for (int side = 0; side < 2; ++side) node(i).ahead(side) = neighbourOf(i, side);
   }
 
   /// The side of `to` that leads back to `from`, or kNone.
   int sideBack(int from, int to) {
     for (int side = 0; side < 2; ++side)
-      if (node(to).next[static_cast<std::size_t>(side)] == from) return side;
+      if (node(to).ahead(side) == from) return side;
     return kNone;
   }
 
   /// The neighbour of that side if both are each other's.
   int link(int index, int side) {
-    const int other = node(index).next[static_cast<std::size_t>(side)];
+    const int other = node(index).ahead(side);
     return other != kNone && sideBack(index, other) != kNone ? other : kNone;
   }
 
   /// Ends without a neighbour ahead that lie next to each other become neighbours: a corner.
   void joinEnds() {
-    const auto count = static_cast<int>(nodes_.size());
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count(); ++i)
       for (int side = 0; side < 2; ++side)
-        if (node(i).next[static_cast<std::size_t>(side)] == kNone) joinEnd(i, side);
+        if (node(i).ahead(side) == kNone) joinEnd(i, side);
   }
 
   void joinEnd(int index, int side) {
@@ -160,16 +159,15 @@ class Joiner {
       if (distance >= best_distance || way.dot(node(index).tangent(side)) < -0.3) return;
       if (sideBack(index, other) != kNone) return;
       for (int back = 0; back < 2; ++back) {
-        if (node(other).next[static_cast<std::size_t>(back)] != kNone) continue;
-        if (way.dot(node(other).tangent(back)) > 0.3) continue;
+        if (node(other).ahead(back) != kNone || way.dot(node(other).tangent(back)) > 0.3) continue;
         best = other;
         best_side = back;
         best_distance = distance;
       }
     });
     if (best == kNone) return;
-    node(index).next[static_cast<std::size_t>(side)] = best;
-    node(best).next[static_cast<std::size_t>(best_side)] = index;
+    node(index).ahead(side) = best;
+    node(best).ahead(best_side) = index;
   }
 
   /// Appends the place of `to`. Where the direction changes both lines end at the corner, also
@@ -196,19 +194,19 @@ class Joiner {
   /// From a node on along one side until the line ends, or is back.
   void follow(int index, int side, std::vector<Eigen::Vector2d>& line) {
     for (int from = index, way = side;;) {
-      const int to = node(from).next[static_cast<std::size_t>(way)];
+      const int to = node(from).ahead(way);
       if (to == kNone) return;
       append(line, from, to);
       const int back = sideBack(from, to);
-      if (back == kNone || visited(to)) return;  // it runs into another line, or is closed
-      visited_[static_cast<std::size_t>(to)] = true;
+      if (back == kNone || node(to).visited) return;  // it runs into another line, or is closed
+      node(to).visited = true;
       way = 1 - back;
       from = to;
     }
   }
 
   std::vector<Eigen::Vector2d> trace(int index) {
-    visited_[static_cast<std::size_t>(index)] = true;
+    node(index).visited = true;
     const Eigen::Vector2d start = node(index).place_px;
     std::vector<Eigen::Vector2d> line = {start};
     follow(index, 0, line);
@@ -226,9 +224,6 @@ class Joiner {
   int height_;
   std::vector<int> node_at_;
   std::vector<Node> nodes_;
-  std::vector<int> pixel_x_;
-  std::vector<int> pixel_y_;
-  std::vector<bool> visited_;
 };
 
 double distanceToSegment(const Eigen::Vector2d& place, const Eigen::Vector2d& from,

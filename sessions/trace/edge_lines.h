@@ -17,9 +17,6 @@ struct EdgeLine {
 };
 using EdgeLines = std::vector<EdgeLine>;
 
-/// A line's corners are left out where the line then moves by less than this.
-inline constexpr double kLineTolerance_px = 0.03;
-
 /// Edge pixels of a render joined to lines at their sub-pixel places. Each edge pixel lies within a
 /// pixel of a line; ends that meet are extended to the corner. `level` is that of the render.
 EdgeLines edgeLines(const RenderTrace& render, int level);

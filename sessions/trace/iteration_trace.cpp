@@ -39,45 +39,39 @@ void recordScores(const MatchSet& matches, IterationTrace& trace) {
   trace.mean_score = matches.searched > 0 ? sum / matches.searched : 0.0;
 }
 
-void recordMatching(const Iteration& iteration, Stage reached, RecordLevel level,
-                    IterationTrace& trace) {
+/// The lists stay empty unless `full`.
+void recordMatching(const Iteration& iteration, Stage reached, bool full, IterationTrace& trace) {
   if (reached < Stage::kTemplates) return;
   trace.template_count = iteration.templates.count;
   trace.template_side_px = iteration.templates.side_px;
-  if (level != RecordLevel::kSummary)
-    trace.templates = firstOf(iteration.templates.templates, iteration.templates.count);
+  trace.templates = firstOf(iteration.templates.templates, full ? iteration.templates.count : 0);
   if (reached < Stage::kMatch) return;
+  const std::int32_t kept = full ? iteration.correspondence_count : 0;
   trace.searched_count = iteration.matches.searched;
   trace.correspondence_count = iteration.correspondence_count;
   recordScores(iteration.matches, trace);
-  if (level != RecordLevel::kSummary) {
-    trace.matches = firstOf(iteration.matches.matches, iteration.matches.count);
-    trace.correspondences = firstOf(iteration.correspondences, iteration.correspondence_count);
-    trace.template_of = firstOf(iteration.template_of, iteration.correspondence_count);
-  }
+  trace.matches = firstOf(iteration.matches.matches, full ? iteration.matches.count : 0);
+  trace.correspondences = firstOf(iteration.correspondences, kept);
+  trace.template_of = firstOf(iteration.template_of, kept);
   if (reached < Stage::kPose) return;
   const PnpSolution& pnp = iteration.pnp;
-  trace.pnp.camera_from_station = pnp.camera_from_station;
-  trace.pnp.inlier_count = pnp.inlier_count;
-  trace.pnp.rms_px = pnp.rms_px;
-  trace.pnp.covariance = pnp.covariance;
-  trace.pnp.samples = pnp.samples;
-  if (level != RecordLevel::kSummary) {
-    trace.pnp.inlier = firstOf(pnp.inlier, iteration.correspondence_count);
-    trace.pnp.residual_px = firstOf(pnp.residual_px, iteration.correspondence_count);
-  }
+  trace.pnp = {pnp.camera_from_station,
+               firstOf(pnp.inlier, kept),
+               firstOf(pnp.residual_px, kept),
+               pnp.inlier_count,
+               pnp.rms_px,
+               pnp.covariance,
+               pnp.samples};
 }
 
-void recordRefinement(const RefinementResult& refinement, RecordLevel level,
-                      RefinementTrace& trace) {
-  trace.camera_from_station = refinement.camera_from_station;
-  trace.covariance = refinement.covariance;
-  trace.sample_count = refinement.sample_count;
-  trace.found_count = refinement.found_count;
-  trace.used_count = refinement.used_count;
-  trace.rms_px = refinement.rms_px;
-  if (level != RecordLevel::kSummary)
-    trace.samples = firstOf(refinement.samples, refinement.sample_count);
+RefinementTrace recordRefinement(const RefinementResult& refinement, bool full) {
+  return {refinement.camera_from_station,
+          refinement.covariance,
+          firstOf(refinement.samples, full ? refinement.sample_count : 0),
+          refinement.sample_count,
+          refinement.found_count,
+          refinement.used_count,
+          refinement.rms_px};
 }
 
 }  // namespace
@@ -95,14 +89,9 @@ RenderTrace recordRender(const EdgeRender& render) {
 }
 
 EdgeMapTrace recordEdgeMap(const EdgeMap& edges, RecordLevel level) {
-  EdgeMapTrace trace;
-  if (level != RecordLevel::kSummary) {
-    for (std::size_t i = 0; i < trace.level.size(); ++i)
-      trace.level[i] = recordBits(edges.level[i]);
-  }
-  trace.low_threshold = edges.low_threshold;
-  trace.high_threshold = edges.high_threshold;
-  trace.edge_count = edges.edge_count;
+  EdgeMapTrace trace{{}, edges.low_threshold, edges.high_threshold, edges.edge_count};
+  if (level != RecordLevel::kSummary)
+    std::ranges::transform(edges.level, trace.level.begin(), &recordBits);
   return trace;
 }
 
@@ -142,15 +131,15 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   trace.camera_from_station_before = iteration.camera_from_station_before;
   trace.uncertainty = iteration.uncertainty;
   trace.edge_pixel_count = iteration.render.pixel_count;
-  if (level != RecordLevel::kSummary) trace.render = recordRender(iteration.render);
-  const bool refines = iteration.kind == IterationKind::kRefine;
-  if (!refines) {
-    recordMatching(iteration, reached, level, trace);
+  const bool full = level != RecordLevel::kSummary;
+  if (full) trace.render = recordRender(iteration.render);
+  if (iteration.kind == IterationKind::kMatch) {
+    recordMatching(iteration, reached, full, trace);
     trace.hypotheses.assign(iteration.hypotheses.begin(),
                             iteration.hypotheses.begin() + iteration.hypothesis_count);
     trace.chosen_hypothesis = iteration.chosen_hypothesis;
   } else if (reached >= Stage::kRefine) {
-    recordRefinement(iteration.refinement, level, trace.refinement);
+    trace.refinement = recordRefinement(iteration.refinement, full);
   }
   const bool solved = hasPose(iteration, reached);
   trace.camera_from_station =

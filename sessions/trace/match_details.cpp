@@ -4,50 +4,42 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/accept/edge_support.h"
+
 namespace boresight::sessions {
 namespace {
 
 MatchDetails describeTemplate(const Template& item, std::int32_t index, int level) {
-  MatchDetails match_details;
-  match_details.index = index;
-  match_details.depth_m = static_cast<double>(item.depth_m);
-  match_details.distinctness = static_cast<double>(item.distinctness);
-  match_details.point_in_station_m = item.point_in_station_m;
-  match_details.predicted_px = fullImagePixel(item.center_x, item.center_y, level);
-  return match_details;
+  return {.index = index,
+          .depth_m = static_cast<double>(item.depth_m),
+          .distinctness = static_cast<double>(item.distinctness),
+          .point_in_station_m = item.point_in_station_m,
+          .predicted_px = fullImagePixel(item.center_x, item.center_y, level)};
 }
 
-double share(std::int32_t part, std::int32_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
-
-void describeMatch(const Match& match, int level, MatchDetails& match_details) {
-  match_details.searched = match.searched;
+void describeMatch(const Match& match, int level, MatchDetails& details) {
+  details.searched = match.searched;
   if (!match.searched) return;
-  match_details.at_border = match.at_border;
-  match_details.found_px = fullImagePixel(match.x, match.y, level);
-  match_details.edge_share = share(match.peak.counts.edge_hits, match.norms.edges);
-  match_details.empty_share = share(match.peak.counts.empty_hits, match.norms.empties);
-  match_details.score = whsScore(match.peak.counts, match.norms);
+  details.at_border = match.at_border;
+  details.found_px = fullImagePixel(match.x, match.y, level);
+  details.edge_share = shareOf(match.peak.counts.edge_hits, match.norms.edges);
+  details.empty_share = shareOf(match.peak.counts.empty_hits, match.norms.empties);
+  details.score = whsScore(match.peak.counts, match.norms);
   if (!match.peak.has_second) return;
-  match_details.second_score = whsScore(match.peak.second_counts, match.norms);
+  details.second_score = whsScore(match.peak.second_counts, match.norms);
   const std::int64_t best = whsComparable(match.peak.counts, match.norms);
   const std::int64_t second = whsComparable(match.peak.second_counts, match.norms);
-  match_details.margin =
-      best > 0 ? static_cast<double>(best - second) / static_cast<double>(best) : 0.0;
+  details.margin = best > 0 ? static_cast<double>(best - second) / static_cast<double>(best) : 0.0;
 }
 
 /// An onboard record has scores without what they are made of.
-void describeScore(const RecordedScore& recorded, MatchDetails& match_details) {
-  match_details.edge_share = match_details.empty_share = match_details.second_score =
-      match_details.margin = kUnknown;
-  match_details.score = recorded.score;
+void describeScore(const RecordedScore& recorded, MatchDetails& details) {
+  details.edge_share = details.empty_share = details.second_score = details.margin = kUnknown;
+  details.score = recorded.score;
   if (!recorded.second_score) return;
-  match_details.second_score = *recorded.second_score;
-  match_details.margin =
-      match_details.score > 0.0
-          ? (match_details.score - match_details.second_score) / match_details.score
-          : 0.0;
+  details.second_score = *recorded.second_score;
+  details.margin =
+      details.score > 0.0 ? (details.score - details.second_score) / details.score : 0.0;
 }
 
 }  // namespace

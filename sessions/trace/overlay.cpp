@@ -76,14 +76,9 @@ ColorImage drawOverlay(const ImageView& image, const Camera& camera, const MeshV
     if (visible) drawEdges(render, layer.color, layer.thin ? radius_px - 1 : radius_px, canvas);
     labels.push_back(layer.label + (visible ? "" : " (no edges in view)"));
   }
-  const bool named = std::any_of(layers.begin(), layers.end(),
-                                 [](const OverlayLayer& layer) { return !layer.label.empty(); });
-  if (named) drawLegend(layers, labels, canvas);
-  ColorImage color_image;
-  color_image.width = canvas.cols;
-  color_image.height = canvas.rows;
-  color_image.bgr.assign(canvas.datastart, canvas.dataend);
-  return color_image;
+  const auto named = [](const OverlayLayer& layer) { return !layer.label.empty(); };
+  if (std::ranges::any_of(layers, named)) drawLegend(layers, labels, canvas);
+  return {canvas.cols, canvas.rows, {canvas.datastart, canvas.dataend}};
 }
 
 void writeColorPng(const std::filesystem::path& file, const ColorImage& image) {

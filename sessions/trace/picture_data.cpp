@@ -6,14 +6,6 @@
 namespace boresight::sessions {
 namespace {
 
-BitMap emptyLike(const BitMap& map) {
-  BitMap bit_map;
-  bit_map.width = map.width;
-  bit_map.height = map.height;
-  bit_map.words.assign(map.words.size(), 0);
-  return bit_map;
-}
-
 bool anyWithinOne(const BitImage& bits, int x, int y) {
   for (int v = std::max(0, y - 1); v <= std::min(bits.height - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(bits.width - 1, x + 1); ++u)
@@ -22,22 +14,17 @@ bool anyWithinOne(const BitImage& bits, int x, int y) {
   return false;
 }
 
-void setBit(BitMap& map, int x, int y) {
-  const auto per_row = static_cast<std::size_t>(BitImage::wordsPerRow(map.width));
-  map.words[static_cast<std::size_t>(y) * per_row + static_cast<std::size_t>(x) / 64] |=
-      std::uint64_t{1} << (static_cast<unsigned>(x) % 64U);
-}
+void setBit(BitMap& map, int x, int y) { map.view().set(x, y); }
 
 }  // namespace
 
 AgreementMaps agreementOf(const RenderTrace& render, const BitMap& test_edges) {
-  AgreementMaps maps;
   if (render.edges.width != test_edges.width || render.edges.height != test_edges.height ||
       render.mask.width != test_edges.width || render.mask.height != test_edges.height)
-    return maps;
-  maps.both = emptyLike(test_edges);
-  maps.only_rendered = emptyLike(test_edges);
-  maps.only_image = emptyLike(test_edges);
+    return {};
+  BitMap empty = test_edges;
+  std::ranges::fill(empty.words, 0);
+  AgreementMaps maps{empty, empty, empty};
   const BitImage rendered = render.edges.view();
   const BitImage mask = render.mask.view();
   const BitImage seen = test_edges.view();

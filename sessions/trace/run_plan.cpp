@@ -17,16 +17,17 @@ RunPlan continuedPlan(const RunPlan& plan, std::int32_t iteration,
 }
 
 std::string planProblem(const RunPlan& plan) {
-  if (const char* name = firstInvalidOption(plan.options))
+  const auto outOfRange = [](const char* name) {
     return std::string(name) + " is out of its range";
+  };
+  if (const char* name = firstInvalidOption(plan.options)) return outOfRange(name);
   const LocalizerOptions* before = &plan.options;
   std::int32_t earliest = 1;
   for (const OptionChange& change : plan.changes) {
     if (change.iteration < earliest)
       return "the options change at iteration " + std::to_string(change.iteration) +
              ", but that must be " + std::to_string(earliest) + " or later";
-    if (const char* name = firstInvalidOption(change.options))
-      return std::string(name) + " is out of its range";
+    if (const char* name = firstInvalidOption(change.options)) return outOfRange(name);
     if (const char* name = firstFixedOption(*before, change.options))
       return std::string(name) +
              " cannot change during a run: run again from the start, or restore its value";

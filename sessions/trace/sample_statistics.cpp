@@ -33,20 +33,20 @@ std::size_t binOf(double residual_px, double radius_px, std::size_t bins) {
 }  // namespace
 
 SampleStatistics sampleStatistics(const IterationTrace& iteration, int bins) {
-  SampleStatistics sample_statistics;
-  sample_statistics.radius_px = iteration.threshold_px;
+  SampleStatistics statistics;
+  statistics.radius_px = iteration.threshold_px;
   const auto bin_count = static_cast<std::size_t>(std::max(1, bins));
-  sample_statistics.found_in_bin.assign(bin_count, 0);
-  sample_statistics.used_in_bin.assign(bin_count, 0);
+  statistics.found_in_bin.assign(bin_count, 0);
+  statistics.used_in_bin.assign(bin_count, 0);
   for (const EdgeSample& sample : iteration.refinement.samples) {
-    count(sample, sample_statistics.all);
-    count(sample, ofKind(sample, sample_statistics));
+    count(sample, statistics.all);
+    count(sample, ofKind(sample, statistics));
     if (!isFound(sample)) continue;
-    const std::size_t bin = binOf(sample.residual_px, sample_statistics.radius_px, bin_count);
-    ++sample_statistics.found_in_bin[bin];
-    if (isUsed(sample)) ++sample_statistics.used_in_bin[bin];
+    const std::size_t bin = binOf(sample.residual_px, statistics.radius_px, bin_count);
+    ++statistics.found_in_bin[bin];
+    if (isUsed(sample)) ++statistics.used_in_bin[bin];
   }
-  return sample_statistics;
+  return statistics;
 }
 
 }  // namespace boresight::sessions

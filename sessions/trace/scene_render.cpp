@@ -7,40 +7,18 @@
 #include "sessions/trace/iteration_trace.h"
 
 namespace boresight::sessions {
-namespace {
 
-RenderOptions optionsFor(const Camera& camera) {
+Status SceneRenderer::Equipment::create(const Camera& camera, const MeshView& mesh, Arena& arena) {
   RenderOptions options;
   options.max_edge_pixels = std::clamp(camera.width * camera.height / 4, 200000, 4000000);
-  return options;
+  Status status = buildAdjacency(mesh, arena, adjacency);
+  if (status == Status::kOk) status = RayGrid::create(camera, arena, rays);
+  if (status == Status::kOk)
+    status = renderer.create(mesh, adjacency, camera.width, camera.height, options, arena);
+  if (status != Status::kOk) return status;
+  render = createEdgeRender(camera.width, camera.height, options, arena);
+  return arena.exhausted() ? Status::kArenaTooSmall : status;
 }
-
-}  // namespace
-
-/// Inputs of a render apart from the mesh.
-struct SceneRenderer::Equipment {
-  std::unique_ptr<std::byte[]> memory;
-  MeshAdjacency adjacency;
-  RayGrid rays;
-  EdgeRenderer renderer;
-  EdgeRender render;
-
-  Status create(const Camera& camera, const MeshView& mesh, Arena& arena) {
-    const RenderOptions options = optionsFor(camera);
-    Status status = buildAdjacency(mesh, arena, adjacency);
-    if (status == Status::kOk) status = RayGrid::create(camera, arena, rays);
-    if (status == Status::kOk)
-      status = renderer.create(mesh, adjacency, camera.width, camera.height, options, arena);
-    if (status == Status::kOk)
-      render = createEdgeRender(camera.width, camera.height, options, arena);
-    return status == Status::kOk && arena.exhausted() ? Status::kArenaTooSmall : status;
-  }
-};
-
-SceneRenderer::SceneRenderer() = default;
-SceneRenderer::~SceneRenderer() = default;
-SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
-SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
 
 Status SceneRenderer::create(const Camera& camera, const MeshView& mesh) {
   equipment_.reset();

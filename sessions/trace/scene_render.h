@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "core/render/edge_render.h"
@@ -14,11 +15,6 @@ namespace boresight::sessions {
 /// between.
 class SceneRenderer {
  public:
-  SceneRenderer();
-  ~SceneRenderer();
-  SceneRenderer(SceneRenderer&&) noexcept;
-  SceneRenderer& operator=(SceneRenderer&&) noexcept;
-
   /// The mesh must outlive the renderer. Returns the core's status, such as kInvalidMesh. Throws
   /// std::bad_alloc.
   Status create(const Camera& camera, const MeshView& mesh);
@@ -32,7 +28,17 @@ class SceneRenderer {
                 const SurfaceRender& surfaces = {});
 
  private:
-  struct Equipment;
+  /// Inputs of a render apart from the mesh.
+  struct Equipment {
+    std::unique_ptr<std::byte[]> memory;
+    MeshAdjacency adjacency;
+    RayGrid rays;
+    EdgeRenderer renderer;
+    EdgeRender render;
+
+    Status create(const Camera& camera, const MeshView& mesh, Arena& arena);
+  };
+
   std::unique_ptr<Equipment> equipment_;
 };
 

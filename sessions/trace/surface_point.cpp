@@ -73,14 +73,15 @@ FaceTree::FaceTree(const MeshView& mesh) : mesh_(mesh) {
     order_.push_back(face);
     middle_m[static_cast<std::size_t>(face)] = (corner[0] + corner[1] + corner[2]) / 3.0;
   }
-  nodes_.push_back({{}, 0, static_cast<std::int32_t>(order_.size()), -1});
-  fit(nodes_.front());
-  bounds_m_ = nodes_.front().box_m;
+  addNode(0, static_cast<std::int32_t>(order_.size()));
   for (std::size_t node = 0; node < nodes_.size(); ++node) split(node, middle_m);
 }
 
-void FaceTree::fit(Node& node) const {
-  for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+void FaceTree::addNode(std::int32_t first, std::int32_t count) {
+  Node& node = nodes_.emplace_back();
+  node.first = first;
+  node.count = count;
+  for (std::int32_t i = first; i < first + count; ++i)
     for (const Eigen::Vector3d& corner : corners(mesh_, order_[static_cast<std::size_t>(i)]))
       node.box_m.extend(corner);
 }
@@ -97,10 +98,8 @@ void FaceTree::split(std::size_t node, const std::vector<Eigen::Vector3d>& middl
            middle_m[static_cast<std::size_t>(b)][axis];
   });
   nodes_[node].child = static_cast<std::int32_t>(nodes_.size());
-  nodes_.push_back({{}, whole.first, half, -1});
-  fit(nodes_.back());
-  nodes_.push_back({{}, whole.first + half, whole.count - half, -1});
-  fit(nodes_.back());
+  addNode(whole.first, half);
+  addNode(whole.first + half, whole.count - half);
 }
 
 std::optional<RayHit> FaceTree::firstHit(const Eigen::Vector3d& origin_m,

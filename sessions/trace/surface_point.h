@@ -34,7 +34,7 @@ class FaceTree {
   std::optional<RayHit> firstHit(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction,
                                  double farthest = std::numeric_limits<double>::infinity()) const;
 
-  const Eigen::AlignedBox3d& bounds_m() const { return bounds_m_; }
+  const Eigen::AlignedBox3d& bounds_m() const { return nodes_.front().box_m; }
 
  private:
   /// Faces first ... first + count of the order; a node that is no leaf has its two halves at
@@ -46,11 +46,10 @@ class FaceTree {
     std::int32_t child = -1;
   };
 
-  void fit(Node& node) const;
+  void addNode(std::int32_t first, std::int32_t count);
   void split(std::size_t node, const std::vector<Eigen::Vector3d>& middle_m);
 
   MeshView mesh_;
-  Eigen::AlignedBox3d bounds_m_;
   std::vector<std::int32_t> order_;
   std::vector<Node> nodes_;
 };

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/trace/trace.h"
 
-#include <algorithm>
-
 namespace boresight::sessions {
-namespace {
-
-bool isStatus(const std::string& text, LocalizationStatus status) {
-  return text == localizationStatusText(status);
-}
-
-}  // namespace
 
 BitImage BitMap::view() const {
   BitImage image;
@@ -36,28 +27,11 @@ RenderView RenderTrace::view() const {
 }
 
 void StageSeconds::add(Stage stage, double seconds) {
-  switch (stage) {
-    case Stage::kEdges:
-    case Stage::kSearch:
-      initialization += seconds;
-      break;
-    case Stage::kRender:
-      rendering += seconds;
-      break;
-    case Stage::kTemplates:
-    case Stage::kMatch:
-      matching += seconds;
-      break;
-    case Stage::kPose:
-      pose += seconds;
-      break;
-    case Stage::kRefine:
-    case Stage::kSupport:
-      refinement += seconds;
-      break;
-    case Stage::kFinished:
-      break;
-  }
+  if (stage == Stage::kEdges || stage == Stage::kSearch) initialization += seconds;
+  if (stage == Stage::kRender) rendering += seconds;
+  if (stage == Stage::kTemplates || stage == Stage::kMatch) matching += seconds;
+  if (stage == Stage::kPose) pose += seconds;
+  if (stage == Stage::kRefine || stage == Stage::kSupport) refinement += seconds;
 }
 
 StageSeconds& StageSeconds::operator+=(const StageSeconds& other) {
@@ -77,35 +51,8 @@ double IterationTrace::rms_px() const {
   return kind == IterationKind::kRefine ? refinement.rms_px : pnp.rms_px;
 }
 
-bool ViewOutcome::tookPart() const { return isStatus(status, LocalizationStatus::kConverged); }
-
-std::string leftOutText(const std::string& status) {
-  if (isStatus(status, LocalizationStatus::kTooFewEdges))
-    return "too few of its edges are rendered or found";
-  if (isStatus(status, LocalizationStatus::kTooFewTemplates)) return "too few templates";
-  if (isStatus(status, LocalizationStatus::kTooFewMatches))
-    return "too few of its templates match edges of the image";
-  if (isStatus(status, LocalizationStatus::kPnpFailed))
-    return "too few of its matches or edges agree with the pose of the others";
-  if (isStatus(status, LocalizationStatus::kNotSupported))
-    return "its edge support is below the limit";
-  return status;
-}
-
-std::string togetherText(const std::vector<ViewOutcome>& views, const std::string& own_case) {
-  const bool converged = std::any_of(views.begin(), views.end(),
-                                     [](const ViewOutcome& view) { return view.tookPart(); });
-  std::vector<std::string> names;
-  for (const ViewOutcome& view_outcome : views) {
-    if (view_outcome.case_id == own_case) continue;
-    const bool out = converged && !view_outcome.tookPart();
-    names.push_back(view_outcome.case_id +
-                    (out ? " (left out: " + leftOutText(view_outcome.status) + ")" : ""));
-  }
-  std::string text = "together with ";
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
+bool ViewOutcome::tookPart() const {
+  return status == localizationStatusText(LocalizationStatus::kConverged);
 }
 
 }  // namespace boresight::sessions

@@ -20,7 +20,7 @@ struct BitMap {
   std::int32_t width = 0;
   std::int32_t height = 0;
 
-  /// For the core's functions, which take `const BitImage&`; must not be written through.
+  /// For the core's functions; the view of a const map must not be written through.
   BitImage view() const;
 };
 
@@ -115,13 +115,6 @@ struct ViewOutcome {
   bool tookPart() const;
   bool operator==(const ViewOutcome&) const = default;
 };
-
-/// Why a view has no part in the pose of all, for the middle of a sentence.
-std::string leftOutText(const std::string& status);
-
-/// "together with bc-2 and bc-3 (left out: ...)": the views of a run but this one. Statuses are
-/// omitted when the run did not converge, or has not ended.
-std::string togetherText(const std::vector<ViewOutcome>& views, const std::string& own_case);
 
 /// How much of an iteration is copied.
 enum class RecordLevel {

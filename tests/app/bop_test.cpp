@@ -24,13 +24,13 @@ class WhsBop : public testing::Test {
     truth_ = *dataset_case.truth_camera_from_station;
     sessions::PosedImage image;
     image.id = 4;
-    image.camera = dataset_.cameras.at(dataset_case.camera);
+    image.camera = dataset_.cameraOf(dataset_case);
     image.camera_from_station = truth_;
     const std::filesystem::path scene = folder_ / "set/test/000003";
     std::filesystem::create_directories(scene / "gray");
     sessions::writeBopScene(scene, {{{image, 5}}});
     std::filesystem::copy_file(dataset_case.image, scene / "gray/000004.png");
-    writeModel(sessions::readStationScene(dataset_.stations.at("bc")));
+    writeModel(sessions::readScene(dataset_.stations.at("bc").parts));
   }
 
   void writeModel(const sessions::SceneMesh& mesh) {

@@ -232,8 +232,7 @@ sessions::ReviewSubject subjectOf(const CheckedVariant& variant, const Pose& cam
 
 ordered_json checksJson(const sessions::ReviewSubject& subject, int convergence_seeds = 0) {
   ordered_json json = ordered_json::array();
-  std::optional<sessions::ConvergenceResult> convergence;
-  if (convergence_seeds > 0) convergence = convergenceTest(subject, convergence_seeds);
+  const auto convergence = convergenceTest(subject, convergence_seeds);
   for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits(), convergence))
     json.push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
   return json;

@@ -48,7 +48,7 @@ sessions::LocalizationTrace run(const sessions::Dataset& dataset,
                                 const sessions::SceneMesh& scene) {
   const sessions::GrayImage image = sessions::readCaseImage(dataset, dataset_case);
   const LocalizationProblem problem =
-      sessions::problemOf(image, nullptr, dataset.cameras.at(dataset_case.camera), scene.view(),
+      sessions::problemOf(image, nullptr, dataset.cameraOf(dataset_case), scene.view(),
                           dataset_case.seed_camera_from_station, *dataset_case.uncertainty,
                           dataset_case.camera_from_end_effector);
   LocalizerOptions options = defaultProfile();
@@ -80,7 +80,7 @@ int measure(const std::string& file, const std::vector<std::string>& tags) {
     if (!isAsked(dataset_case, tags)) continue;
     if (!scenes.contains(dataset_case.station))
       scenes[dataset_case.station] =
-          sessions::readStationScene(dataset.stations.at(dataset_case.station));
+          sessions::readScene(dataset.stations.at(dataset_case.station).parts);
     const sessions::LocalizationTrace trace =
         run(dataset, dataset_case, scenes[dataset_case.station]);
     if (trace.status != LocalizationStatus::kConverged) continue;

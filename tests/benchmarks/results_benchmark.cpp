@@ -17,6 +17,7 @@
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/results_set.h"
 #include "sessions/tables/strata_table.h"
+#include "sessions/text/plain_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {

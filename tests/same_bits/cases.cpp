@@ -161,7 +161,7 @@ bool writeCase(const SameBitsCase& same_bits_case, const fs::path& folder) {
     sessions::writeFileAtomically(mesh,
                                   plyOf(splitTriangles(example.scene, same_bits_case.triangles)));
   }
-  sessions::writeCamera(folder / "camera.json", same_bits_case.camera);
+  sessions::writeCamera(folder / "camera.json", {same_bits_case.camera});
   std::vector<std::uint8_t> pixels;
   for (const std::uint16_t sample : seenBy(same_bits_case.camera, example))
     pixels.push_back(static_cast<std::uint8_t>(std::lround(sample * 255.0 / 4095.0)));
@@ -192,7 +192,7 @@ bool writeDataCase(const std::string& id, const fs::path& data, const fs::path& 
   if (dataset_case == nullptr) throw std::runtime_error("the data has no case " + id);
   const sessions::Station& station = dataset.stations.at(dataset_case->station);
   const sessions::PartSource& part = station.parts.at(0);
-  sessions::writeCamera(folder / "camera.json", dataset.cameras.at(dataset_case->camera));
+  sessions::writeCamera(folder / "camera.json", {dataset.cameraOf(*dataset_case)});
   sessions::writePose(folder / "seed.json", dataset_case->seed_camera_from_station,
                       dataset_case->uncertainty);
   return writeExpectation(

@@ -28,13 +28,6 @@ QRectF areaOf(const sessions::Annotations& annotations) {
   return {box.center().x() - 0.5 * side, box.center().y() - 0.5 * side, side, side};
 }
 
-void setMarks(ImageView& view, LayerId id, std::vector<Mark> marks) {
-  Layer layer = view.layer(id);
-  layer.style.visible = true;
-  layer.marks = std::move(marks);
-  view.setLayer(std::move(layer));
-}
-
 }  // namespace
 
 AmbiguityView::AmbiguityView(AnnotationController& controller, ViewState& state,
@@ -42,6 +35,11 @@ AmbiguityView::AmbiguityView(AnnotationController& controller, ViewState& state,
     : QWidget(parent), controller_(controller), state_(state), snapper_(snapper) {
   ui_.setupUi(this);
   setObjectName(QStringLiteral("ambiguityView"));
+  for (ImageView* view : pictures()) {
+    LayerStyle band = view->layer(LayerId::kAnnotationBand).style;
+    band.visible = true;
+    view->setStyle(LayerId::kAnnotationBand, band);
+  }
   connect(ui_.showOtherPose, &QPushButton::clicked, this, [this] {
     if (const auto pose = other()) Q_EMIT otherRequested(*pose);
   });
@@ -68,9 +66,9 @@ void AmbiguityView::showSolution() {
       controller_.solution()->annotations.views.front().annotations;
   area_ = areaOf(annotations);
   const AnnotationLook look = {{}, {}, state_.currentCase()->source.camera, *pose};
-  for (ImageView* view : {ui_.bestPicture, ui_.otherPicture}) {
+  for (ImageView* view : pictures()) {
     view->setImage(grayImage(state_.currentCase()->image.view()));
-    setMarks(*view, LayerId::kPoints, annotationSigns(annotations, look));
+    view->setPart(LayerId::kPoints, &Layer::marks, annotationSigns(annotations, look));
   }
   zoomToAnnotations();
   if (snapper_.mesh()) drawEdges({*pose, *other_pose});
@@ -89,13 +87,13 @@ void AmbiguityView::drawEdges(const std::array<Pose, 2>& camera_from_station) {
         return edges;
       },
       [this](const Edges& edges) {
-        setMarks(*ui_.bestPicture, LayerId::kAnnotationBand, bandSigns(edges[0]));
-        setMarks(*ui_.otherPicture, LayerId::kAnnotationBand, bandSigns(edges[1]));
+        for (std::size_t i = 0; i < edges.size(); ++i)
+          pictures()[i]->setPart(LayerId::kAnnotationBand, &Layer::marks, bandSigns(edges[i]));
       });
 }
 
 void AmbiguityView::zoomToAnnotations() {
-  for (ImageView* view : {ui_.bestPicture, ui_.otherPicture}) {
+  for (ImageView* view : pictures()) {
     ViewTransform transform;
     transform.zoomAt({}, std::min(view->width(), view->height()) / area_.width());
     transform.centreOn(area_.center(), view->size());

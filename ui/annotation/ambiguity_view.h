@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include <QRectF>
@@ -33,6 +34,7 @@ class AmbiguityView : public QWidget {
   void showSolution();
   void drawEdges(const std::array<Pose, 2>& camera_from_station);
   void zoomToAnnotations();
+  std::array<ImageView*, 2> pictures() const { return {ui_.bestPicture, ui_.otherPicture}; }
   std::optional<Pose> other() const;
 
   AnnotationController& controller_;

@@ -29,11 +29,6 @@ constexpr double kLeastRim_px = 16.0;
 
 QString aimText(const char* text) { return QCoreApplication::translate("MarkAim", text); }
 
-/// "circle centre, z -10.00 mm": which of two that lie one behind the other.
-QString atHeight(const QString& text, const Eigen::Vector3d& point_in_station_m) {
-  return aimText("%1, z %2 mm").arg(text, numberText(1e3 * point_in_station_m.z(), 2));
-}
-
 constexpr std::array<const char*, 3> kImageSnapNames = {"corner", "ellipse centre", "edge"};
 constexpr std::array<const char*, 3> kMeshSnapNames = {"vertex", "model edge", "circle centre"};
 
@@ -78,27 +73,29 @@ AnnotationAim aimAtStation(const sessions::LoadedCase& loaded_case, const Pose& 
                            const AimRules& rules) {
   AnnotationAim aim;
   const Camera& camera = loaded_case.source.camera;
+  // "circle centre, z -10.00 mm": which of two that lie one behind the other.
+  const auto aim_at = [&aim](const Eigen::Vector2d& pixel,
+                             const Eigen::Vector3d& point_in_station_m, const char* name) {
+    aim.side = AimSide::kStation;
+    aim.pixel = pixel;
+    aim.point_in_station_m = point_in_station_m;
+    aim.text =
+        aimText("%1, z %2 mm").arg(aimText(name), numberText(1e3 * point_in_station_m.z(), 2));
+  };
   if (rules.line) std::erase_if(snaps, [](const MeshSnap& snap) { return !snap.edge; });
   if (!snaps.empty() && (rules.snaps || rules.line)) {
     const MeshSnap& snap = chosenOf(snaps, rules.turn, aim);
-    aim.side = AimSide::kStation;
-    aim.pixel = snap.pixel;
-    aim.point_in_station_m = snap.point_in_station_m;
+    aim_at(snap.pixel, snap.point_in_station_m,
+           kMeshSnapNames[static_cast<std::size_t>(snap.kind)]);
     aim.edge = snap.edge;
     if (snap.edge)
       aim.edge_on_image = sessions::edgeOnImage(camera, camera_from_station, *snap.edge);
-    aim.text = atHeight(aimText(kMeshSnapNames[static_cast<std::size_t>(snap.kind)]),
-                        snap.point_in_station_m);
     return aim;
   }
   if (rules.line) return aim;
   const auto surface =
       sessions::surfacePointAt(camera, loaded_case.scene.view(), camera_from_station, pointer);
-  if (!surface) return aim;
-  aim.side = AimSide::kStation;
-  aim.pixel = pointer;
-  aim.point_in_station_m = surface->in_station_m;
-  aim.text = atHeight(aimText("surface"), surface->in_station_m);
+  if (surface) aim_at(pointer, surface->in_station_m, "surface");
   return aim;
 }
 
@@ -112,10 +109,6 @@ const QColor kImageColor(255, 255, 255);
 const QColor kStationColor(120, 220, 255);
 const QColor kAimRim(0, 0, 0, 170);
 
-QPointF toWidget(const ViewTransform& transform, const Eigen::Vector2d& pixel) {
-  return transform.toWidget(QPointF(pixel.x(), pixel.y()));
-}
-
 QPolygonF ellipseOnWidget(const ViewTransform& transform, const sessions::EllipseSnap& ellipse) {
   constexpr int kPieces = 72;
   QPolygonF line;
@@ -123,25 +116,29 @@ QPolygonF ellipseOnWidget(const ViewTransform& transform, const sessions::Ellips
   const Eigen::Vector2d across(-along.y(), along.x());
   for (int i = 0; i <= kPieces; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kPieces;
-    line << toWidget(transform, ellipse.centre +
-                                    ellipse.half_axes_px.x() * std::cos(angle) * along +
-                                    ellipse.half_axes_px.y() * std::sin(angle) * across);
+    line << transform.toWidget(ellipse.centre + ellipse.half_axes_px.x() * std::cos(angle) * along +
+                               ellipse.half_axes_px.y() * std::sin(angle) * across);
   }
   return line;
 }
 
+QSizeF boxSize(const QPainter& painter, const QString& text) {
+  const QFontMetricsF metrics(painter.font());
+  return {metrics.horizontalAdvance(text) + 2.0 * kPadding, metrics.height() + 4.0};
+}
+
 void paintFound(QPainter& painter, const ViewTransform& transform, const AnnotationAim& aim) {
-  const QPointF at = toWidget(transform, aim.pixel);
+  const QPointF at = transform.toWidget(aim.pixel);
   if (aim.snap && aim.snap->kind == sessions::ImageSnapKind::kEllipse)
     painter.drawPolyline(ellipseOnWidget(transform, aim.snap->ellipse));
   if (aim.snap && aim.snap->kind == sessions::ImageSnapKind::kEdge) {
-    const QPointF normal(aim.snap->edge.normal.x(), aim.snap->edge.normal.y());
+    const QPointF normal = pointOf(aim.snap->edge.normal);
     const QPointF along(-normal.y(), normal.x());
     painter.drawLine(at - kNormal * along, at + kNormal * along);
     painter.drawLine(at + kPlaceHalf * normal, at + kNormal * normal);  // towards the bright side
   }
   QPolygonF edge;
-  for (const Eigen::Vector2d& pixel : aim.edge_on_image) edge << toWidget(transform, pixel);
+  for (const Eigen::Vector2d& pixel : aim.edge_on_image) edge << transform.toWidget(pixel);
   if (edge.size() > 1) painter.drawPolyline(edge);
 }
 
@@ -150,7 +147,7 @@ void paintFound(QPainter& painter, const ViewTransform& transform, const Annotat
 void paintAim(QPainter& painter, const ViewTransform& transform, const AnnotationAim& aim,
               const QPointF& pointer) {
   if (aim.side == AimSide::kNone) return;
-  const QPointF at = toWidget(transform, aim.pixel);
+  const QPointF at = transform.toWidget(aim.pixel);
   const QColor color = aim.side == AimSide::kImage ? kImageColor : kStationColor;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, true);
@@ -169,8 +166,7 @@ void paintAim(QPainter& painter, const ViewTransform& transform, const Annotatio
 }
 
 QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text, double room) {
-  const QFontMetricsF metrics(painter.font());
-  const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kPadding, metrics.height() + 4.0);
+  const QSizeF size = boxSize(painter, text);
   const QRectF box(top_left, size + QSizeF(room, 0.0));
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, true);
@@ -186,9 +182,7 @@ QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text,
 void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& anchor,
                const QString& text) {
   if (text.isEmpty()) return;
-  const QFontMetricsF metrics(painter.font());
-  const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kPadding, metrics.height() + 4.0);
-  QRectF box(anchor + QPointF(kBeside, kBeside), size);
+  QRectF box(anchor + QPointF(kBeside, kBeside), boxSize(painter, text));
   if (box.right() > area.right() || box.intersects(taken)) box.moveRight(anchor.x() - kBeside);
   if (box.left() < area.left()) box.moveTopLeft(QPointF(area.left(), anchor.y() + 2.0 * kBeside));
   if (box.bottom() > area.bottom()) box.moveBottom(anchor.y() - kBeside);

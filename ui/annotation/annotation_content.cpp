@@ -28,50 +28,43 @@ Mark sign(MarkShape shape, const Eigen::Vector2d& pixel, int item) {
   return mark;
 }
 
+QString unplacedLabel(const std::string& id) {
+  return contentText("%1 (not placed)").arg(QString::fromStdString(id));
+}
+
 /// Collects the signs of one case's annotations.
-class Signs {
- public:
-  explicit Signs(const AnnotationLook& look) : look_(look) {}
+struct Signs {
+  const AnnotationLook& look;
+  std::vector<Mark> signs = {};
 
   void addPoint(const sessions::PointPair& point, int item) {
     if (point.pixel) {
-      Mark mark = sign(shapeOf(point), *point.pixel, item);
-      mark.label = annotationLabel(point.id, stateOf(point));
-      finish(std::move(mark), point);
-    } else if (point.point_in_station_m && look_.camera_from_station) {
-      const auto place = sessions::predictPlace(look_.camera, *look_.camera_from_station,
-                                                *point.point_in_station_m);
+      finish(sign(shapeOf(point), *point.pixel, item), point,
+             annotationLabel(point.id, stateOf(point)));
+    } else if (point.point_in_station_m && look.camera_from_station) {
+      const auto place =
+          sessions::predictPlace(look.camera, *look.camera_from_station, *point.point_in_station_m);
       if (!place.valid) return;
       Mark mark = sign(MarkShape::kDiamond, place.pixel, item);
       mark.dashed = true;
-      mark.label = contentText("%1 (not placed)").arg(QString::fromStdString(point.id));
-      finish(std::move(mark), point);
+      finish(std::move(mark), point, unplacedLabel(point.id));
     }
   }
 
   void addLine(const sessions::LinePair& line, int item) {
     if (line.line) {
       Mark mark = segment(line.line->start, line.line->end, item);
-      mark.label = annotationLabel(line.id, stateOf(line));
       mark.dashed = !line.edge;
-      finish(std::move(mark), line);
+      finish(std::move(mark), line, annotationLabel(line.id, stateOf(line)));
       for (const Eigen::Vector2d& end : {line.line->start, line.line->end}) {
         Mark handle = sign(line.locked ? MarkShape::kSquare : MarkShape::kCircle, end, item);
         handle.size_px = kEndSize;
         if (!line.enabled) handle.color = kDisabledAnnotation;
-        signs_.push_back(std::move(handle));
+        signs.push_back(std::move(handle));
       }
-    } else if (line.edge && look_.camera_from_station) {
+    } else if (line.edge && look.camera_from_station) {
       addPredictedEdge(line, item);
     }
-  }
-
-  std::vector<Mark> take() { return std::move(signs_); }
-
- private:
-  template <class Pair>
-  bool isOutlier(const Pair& pair) const {
-    return pair.used() && look_.outliers.contains(pair.id);
   }
 
   static Mark segment(const Eigen::Vector2d& start, const Eigen::Vector2d& end, int item) {
@@ -82,14 +75,13 @@ class Signs {
 
   /// As the camera bends it; each piece is a sign of its own.
   void addPredictedEdge(const sessions::LinePair& line, int item) {
-    const auto places = sessions::edgeOnImage(look_.camera, *look_.camera_from_station, *line.edge);
+    const auto places = sessions::edgeOnImage(look.camera, *look.camera_from_station, *line.edge);
     for (std::size_t i = 1; i < places.size(); ++i) {
       Mark mark = segment(places[i - 1], places[i], item);
       mark.dashed = true;
-      if (2 * i == places.size() + 1)
-        mark.label = contentText("%1 (not placed)").arg(QString::fromStdString(line.id));
-      if (line.id == look_.selected) mark.color = kChosenAnnotation;
-      signs_.push_back(std::move(mark));
+      if (2 * i == places.size() + 1) mark.label = unplacedLabel(line.id);
+      if (line.id == look.selected) mark.color = kChosenAnnotation;
+      signs.push_back(std::move(mark));
     }
   }
 
@@ -101,17 +93,14 @@ class Signs {
 
   template <class Pair>
   AnnotationState stateOf(const Pair& pair) const {
-    const double outlier = isOutlier(pair) ? look_.outliers.at(pair.id) : 0.0;
-    return {pair.complete(), pair.enabled, pair.id == look_.selected, outlier};
+    return ui::stateOf(pair, look.selected, look.outliers);
   }
 
   template <class Pair>
-  void finish(Mark mark, const Pair& pair) {
-    for (Mark& each : withState(std::move(mark), stateOf(pair))) signs_.push_back(std::move(each));
+  void finish(Mark mark, const Pair& pair, const QString& label) {
+    mark.label = label;
+    for (Mark& each : withState(std::move(mark), stateOf(pair))) signs.push_back(std::move(each));
   }
-
-  const AnnotationLook& look_;
-  std::vector<Mark> signs_;
 };
 
 }  // namespace
@@ -163,20 +152,18 @@ std::vector<Mark> withState(Mark sign, const AnnotationState& state) {
     round.label.clear();
   };
   if (state.outlier > 0.0) add_round(MarkShape::kTriangle, 2.0 * kSize);
-  if (state.chosen) {
-    add_round(MarkShape::kCircle, kChosenSize);
-  }
+  if (state.chosen) add_round(MarkShape::kCircle, kChosenSize);
   signs.push_back(std::move(sign));
   return signs;
 }
 
 std::vector<Mark> annotationSigns(const sessions::Annotations& annotations,
                                   const AnnotationLook& look) {
-  Signs signs(look);
+  Signs signs{look};
   int item = 0;
   for (const sessions::PointPair& point : annotations.points) signs.addPoint(point, item++);
   for (const sessions::LinePair& line : annotations.lines) signs.addLine(line, item++);
-  return signs.take();
+  return std::move(signs.signs);
 }
 
 std::vector<Mark> residualSigns(const std::vector<sessions::AnnotationVector>& vectors,

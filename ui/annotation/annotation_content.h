@@ -36,6 +36,14 @@ struct AnnotationState {
   bool chosen = false;
   double outlier = 0.0;  ///< residual in sigmas if it is an outlier, else 0
 };
+/// Of a point or a line; `outliers`: normalized residual by id.
+template <class Pair>
+AnnotationState stateOf(const Pair& pair, const std::string& selected,
+                        const std::map<std::string, double>& outliers) {
+  const auto outlier = pair.used() ? outliers.find(pair.id) : outliers.end();
+  return {pair.complete(), pair.enabled, pair.id == selected,
+          outlier == outliers.end() ? 0.0 : outlier->second};
+}
 /// "p1", "p1 ?" (incomplete), "p1 (off)", "p1 ! 4.2 sigma".
 QString annotationLabel(const std::string& id, const AnnotationState& state);
 /// Colour of an annotation's sign; invalid: the layer's own.

@@ -9,6 +9,7 @@
 #include "sessions/decision/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -19,28 +20,8 @@ using sessions::PointPair;
 
 const QString kSolving = QStringLiteral("solve annotations");
 
-bool sameViews(const sessions::CaseAnnotations& a, const sessions::CaseAnnotations& b) {
-  if (a.case_ids != b.case_ids || a.views.size() != b.views.size()) return false;
-  for (std::size_t i = 0; i < a.views.size(); ++i)
-    if (!(a.views[i].annotations == b.views[i].annotations &&
-          a.views[i].camera == b.views[i].camera &&
-          a.views[i].camera_from_rig == b.views[i].camera_from_rig))
-      return false;
-  return true;
-}
-
-bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
-  return sameViews(a.annotations, b.annotations) && a.one == b.one && a.landmarks == b.landmarks &&
-         a.rounds == b.rounds && a.annotations.robust == b.annotations.robust &&
-         a.annotations.sigmas == b.annotations.sigmas && a.blind == b.blind &&
-         a.annotations.requirement == b.annotations.requirement &&
-         a.camera_from_station_guess == b.camera_from_station_guess;
-}
-
 RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQuestion& asked) {
-  RoundAnswer round_answer;
-  round_answer.by = round.by;
-  round_answer.time = round.time;
+  RoundAnswer round_answer = {round.by, round.time, {}, {}};
   if (asked.blind) return round_answer;
   const sessions::AnnotatedView& at_work = asked.annotations.views.front();
   round_answer.repeatability = sessions::repeatability(round.annotations, at_work.annotations);
@@ -57,27 +38,25 @@ RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQue
 }
 
 AnnotationAnswer solve(const AnnotationQuestion& asked) {
-  AnnotationAnswer annotation_answer;
-  annotation_answer.blind = asked.blind;
+  AnnotationAnswer answer;
+  answer.blind = asked.blind;
   for (const sessions::AnnotationRound& round : asked.rounds)
-    annotation_answer.rounds.push_back(answerOf(round, asked));
-  if (asked.blind) return annotation_answer;
+    answer.rounds.push_back(answerOf(round, asked));
+  if (asked.blind) return answer;
   const MeshView mesh = asked.one->scene.view();
   auto solution = std::make_shared<sessions::CaseAnnotationsSolution>(
       sessions::solveCaseAnnotations(asked.annotations, asked.camera_from_station_guess,
                                      sessions::boxCorners(matchedBounds(mesh))));
   if (const auto pose = solution->camera_from_station()) {
     const sessions::AnnotatedView& view = solution->annotations.views.front();
-    annotation_answer.covariance = solution->covariance();
-    annotation_answer.proposals =
-        sessions::proposeAnnotations(asked.landmarks, view.annotations, mesh, view.camera, *pose,
-                                     &*annotation_answer.covariance);
+    answer.covariance = solution->covariance();
+    answer.proposals = sessions::proposeAnnotations(asked.landmarks, view.annotations, mesh,
+                                                    view.camera, *pose, &*answer.covariance);
   }
-  annotation_answer.quality =
-      sessions::annotationQuality(asked.one, *solution, asked.annotations.sigmas);
-  annotation_answer.concern = sessions::annotationConcern(*solution, *annotation_answer.quality);
-  annotation_answer.solution = std::move(solution);
-  return annotation_answer;
+  answer.quality = sessions::annotationQuality(asked.one, *solution, asked.annotations.sigmas);
+  answer.concern = sessions::annotationConcern(*solution, *answer.quality);
+  answer.solution = std::move(solution);
+  return answer;
 }
 
 }  // namespace
@@ -88,8 +67,8 @@ AnnotationController::AnnotationController(Document& document, ViewState& state,
   pause_.setInterval(kPause_ms);
   connect(&pause_, &QTimer::timeout, this, &AnnotationController::finishMove);
   connect(&runner_, &TaskRunner::failed, this, &AnnotationController::told);
-  connect(&document_, &Document::opened, this, &AnnotationController::showDocument);
-  connect(&document_, &Document::changed, this, &AnnotationController::showDocument);
+  connectEach(document_, this, &AnnotationController::showDocument, &Document::opened,
+              &Document::changed);
   state_.onChange(ViewChange::kCase, this, &AnnotationController::showDocument);
   showDocument();
 }
@@ -100,6 +79,13 @@ const PointPair* AnnotationController::selectedPoint() const {
 
 const LinePair* AnnotationController::selectedLine() const {
   return sessions::findLine(annotations_, selected_);
+}
+
+std::optional<Eigen::Vector2d> AnnotationController::selectedPixel(int end) const {
+  if (const PointPair* point = selectedPoint()) return point->pixel;
+  const LinePair* line = selectedLine();
+  if (!line || !line->line) return std::nullopt;
+  return end == 0 ? line->line->start : line->line->end;
 }
 
 std::optional<Pose> AnnotationController::solvedPose() const {
@@ -124,7 +110,7 @@ void AnnotationController::showDocument() {
   const Annotations current = found == annotations.end() ? Annotations() : *found->second;
   const bool differs = !moving_ && !(current == annotations_);
   if (differs) annotations_ = current;
-  if (!selected_.empty() && !selectedPoint() && !selectedLine()) selected_.clear();
+  if (!sessions::hasAnnotation(annotations_, selected_)) selected_.clear();
   showLandmarks();
   if (other_case || differs) {
     Q_EMIT annotationsChanged();
@@ -164,7 +150,7 @@ void AnnotationController::askIfChanged(bool anyway) {
   current.landmarks = landmarks_;
   current.rounds = roundsOfCase();
   current.blind = sessions::isBlind(current.rounds, annotations_);
-  if (!anyway && asked_ && sameQuestion(*asked_, current)) return;
+  if (!anyway && asked_ == current) return;
   asked_ = current;
   stale_ = true;
   if (current.blind && !answer_.blind) {  // at once: what is shown predicts places
@@ -197,8 +183,7 @@ void AnnotationController::setMode(PlaceMode mode) {
 void AnnotationController::select(const std::string& id) {
   if (id == selected_) return;
   finishMove();
-  selected_ = id;
-  if (!selectedPoint() && !selectedLine()) selected_.clear();
+  selected_ = sessions::hasAnnotation(annotations_, id) ? id : std::string();
   Q_EMIT selectionChanged();
 }
 

@@ -38,6 +38,8 @@ struct AnnotationQuestion {
   std::vector<sessions::Landmark> landmarks;
   sessions::AnnotationRounds rounds;
   bool blind = false;  ///< nothing is solved
+
+  bool operator==(const AnnotationQuestion&) const = default;
 };
 
 /// An earlier annotation round over the same image, next to the current annotations.
@@ -79,6 +81,8 @@ class AnnotationController : public QObject {
   const std::string& selected() const { return selected_; }
   const sessions::PointPair* selectedPoint() const;
   const sessions::LinePair* selectedLine() const;
+  /// Image position of the selected annotation (of a line: of `end` 0 or 1), if it has one.
+  std::optional<Eigen::Vector2d> selectedPixel(int end = 0) const;
   /// The latest solution of this case, or nullptr before the first.
   const SolutionPtr& solution() const { return answer_.solution; }
   /// Whether the annotations have changed since that solution was requested.
@@ -165,10 +169,12 @@ class AnnotationController : public QObject {
   template <class Pair, class Side>
   std::string place(const Pair* chosen, std::optional<Side> Pair::*side, const Side& value,
                     const QString& text);
+  template <class Pair>
+  bool put(const Pair& pair, const QString& text);
+  const sessions::SessionCase* caseWithPose();
   bool mayChange(const std::string& id);
   template <class Pair>
   bool replace(const Pair* before, const Pair& after, const QString& text);
-  bool mayReplace(const std::string& replaced, const std::string& id);
   sessions::PointPair annotationOf(const sessions::Landmark& landmark) const;
   sessions::AnnotationRounds roundsOfCase() const;
   void setRounds(sessions::AnnotationRounds rounds, const sessions::Annotations& annotations,

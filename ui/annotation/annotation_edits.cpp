@@ -3,6 +3,7 @@
 #include "ui/annotation/annotation_controller.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "sessions/annotation/annotations.h"
@@ -20,20 +21,14 @@ using sessions::Annotations;
 using sessions::LinePair;
 using sessions::PointPair;
 
-namespace {
-
-Annotations withPair(const Annotations& annotations, const std::string& id,
-                     const PointPair& point) {
-  return sessions::withPoint(annotations, id, point);
+/// Adds an annotation, or replaces the one of its id, and selects it. `text` names its id as %1.
+template <class Pair>
+bool AnnotationController::put(const Pair& pair, const QString& text) {
+  if (!commit(sessions::withPair(annotations_, pair.id, pair), text.arg(fromText(pair.id))))
+    return false;
+  select(pair.id);
+  return true;
 }
-Annotations withPair(const Annotations& annotations, const std::string& id, const LinePair& line) {
-  return sessions::withLine(annotations, id, line);
-}
-
-char letterOf(const PointPair& /*kind*/) { return 'p'; }
-char letterOf(const LinePair& /*kind*/) { return 'l'; }
-
-}  // namespace
 
 /// Completes the chosen pair where it lacks this side and is not locked, else begins a new one.
 template <class Pair, class Side>
@@ -42,19 +37,17 @@ std::string AnnotationController::place(const Pair* chosen, std::optional<Side> 
   const bool completes = chosen && !(chosen->*side) && !chosen->locked;
   Pair pair = completes ? *chosen : Pair();
   if (!completes) {
-    pair.id = sessions::unusedId(annotations_, letterOf(pair));
+    pair.id = sessions::unusedId(annotations_, std::is_same_v<Pair, PointPair> ? 'p' : 'l');
     pair.sigma_px = sigma_px_;
   }
   pair.*side = value;
-  if (!commit(withPair(annotations_, pair.id, pair), text.arg(fromText(pair.id)))) return {};
-  select(pair.id);
-  return pair.id;
+  return put(pair, text) ? pair.id : std::string();
 }
 
 std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
   finishMove();
   const ViewState::CasePtr& loaded_case = state_.currentCase();
-  if (case_id_.empty() || !loaded_case) return {};
+  if (!loaded_case) return {};
   if (!sessions::isInImage(loaded_case->source.camera, pixel)) {
     Q_EMIT told(tr("This position is outside the image; click on the image."));
     return {};
@@ -64,14 +57,13 @@ std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
 
 std::string AnnotationController::placeOnStation(const Eigen::Vector3d& point_in_station_m) {
   finishMove();
-  if (case_id_.empty() || !point_in_station_m.allFinite()) return {};
+  if (!point_in_station_m.allFinite()) return {};
   return place(selectedPoint(), &PointPair::point_in_station_m, point_in_station_m,
                tr("Place %1 on the station"));
 }
 
 std::string AnnotationController::placeLineInImage(const sessions::ImageLine& line) {
   finishMove();
-  if (case_id_.empty()) return {};
   if ((line.end - line.start).norm() < 1.0) {
     Q_EMIT told(tr("A line needs two points at least a pixel apart."));
     return {};
@@ -81,7 +73,6 @@ std::string AnnotationController::placeLineInImage(const sessions::ImageLine& li
 
 std::string AnnotationController::placeEdgeOnStation(const sessions::ModelEdge& edge) {
   finishMove();
-  if (case_id_.empty()) return {};
   return place(selectedLine(), &LinePair::edge, edge, tr("Place %1 on the station"));
 }
 
@@ -115,36 +106,26 @@ void AnnotationController::finishMove() {
 }
 
 bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
-  const PointPair* point = selectedPoint();
-  const LinePair* line = selectedLine();
-  std::optional<Eigen::Vector2d> from;
-  if (point) from = point->pixel;
-  if (line && line->line) from = end == 0 ? line->line->start : line->line->end;
+  const auto from = selectedPixel(end);
   if (!from || !dragInImage(selected_, *from + by_px, end)) return false;
   pause_.start();
   return true;
 }
 
-/// Whether an edit of the table may give an annotation this id.
-bool AnnotationController::mayReplace(const std::string& replaced, const std::string& id) {
+template <class Pair>
+bool AnnotationController::replace(const Pair* before, const Pair& after, const QString& text) {
+  if (!before) return false;
+  const std::string id = after.id;
   if (id.empty()) {
     Q_EMIT told(tr("An annotation needs a name."));
     return false;
   }
-  if (id != replaced &&
-      (sessions::findPoint(annotations_, id) || sessions::findLine(annotations_, id))) {
+  if (id != before->id && sessions::hasAnnotation(annotations_, id)) {
     Q_EMIT told(tr("The annotation \"%1\" exists; use another name.").arg(fromText(id)));
     return false;
   }
-  return true;
-}
-
-template <class Pair>
-bool AnnotationController::replace(const Pair* before, const Pair& after, const QString& text) {
-  if (!before || !mayReplace(before->id, after.id)) return false;
   const bool chosen = selected_ == before->id;
-  const std::string id = after.id;
-  if (!commit(withPair(annotations_, before->id, after), text)) return false;
+  if (!commit(sessions::withPair(annotations_, before->id, after), text)) return false;
   if (chosen) select(id);
   return true;
 }
@@ -186,9 +167,7 @@ void AnnotationController::confirm(const sessions::Proposal& proposal,
   finishMove();
   PointPair point = annotationOf(proposal.landmark);
   point.pixel = pixel;
-  const std::string id = point.id;
-  if (commit(sessions::withPoint(annotations_, id, point), tr("Confirm %1").arg(fromText(id))))
-    select(id);
+  put(point, tr("Confirm %1"));
 }
 
 int AnnotationController::seenProposals() const {
@@ -210,7 +189,7 @@ void AnnotationController::confirmSeen() {
     ++found;
     PointPair point = annotationOf(proposal.landmark);
     point.pixel = *pixel;
-    confirmed = sessions::withPoint(std::move(confirmed), point.id, point);
+    confirmed = sessions::withPair(std::move(confirmed), point.id, point);
   }
   if (found > 0) commit(confirmed, tr("Confirm %1 landmarks").arg(found));
   Q_EMIT told(
@@ -222,11 +201,7 @@ void AnnotationController::confirmSeen() {
 void AnnotationController::begin(const sessions::Landmark& landmark) {
   finishMove();
   const PointPair point = annotationOf(landmark);
-  if (sessions::findPoint(annotations_, point.id) || sessions::findLine(annotations_, point.id))
-    return;
-  if (commit(sessions::withPoint(annotations_, point.id, point),
-             tr("Begin %1").arg(fromText(point.id))))
-    select(landmark.name);
+  if (!sessions::hasAnnotation(annotations_, point.id)) put(point, tr("Begin %1"));
 }
 
 sessions::AnnotationRounds AnnotationController::roundsOfCase() const {
@@ -238,7 +213,6 @@ sessions::AnnotationRounds AnnotationController::roundsOfCase() const {
 void AnnotationController::setRounds(sessions::AnnotationRounds rounds,
                                      const sessions::Annotations& annotations,
                                      const QString& text) {
-  if (case_id_.empty()) return;
   const sessions::Session with_annotations =
       sessions::withAnnotations(document_.session(), case_id_, annotations);
   document_.edit(sessions::withRounds(with_annotations, case_id_, std::move(rounds)), text);
@@ -272,22 +246,25 @@ void AnnotationController::removeRound(int round) {
   setRounds(std::move(rounds), annotations_, tr("Remove the annotations of %1").arg(by));
 }
 
-void AnnotationController::useAsTruth() {
+/// The shown case if it has a solved pose; nullptr also, with a message, while that is stale.
+const sessions::SessionCase* AnnotationController::caseWithPose() {
   finishMove();
-  const std::optional<Pose> solved = solvedPose();
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
-  if (!session_case || !solved) return;
-  if (stale_) {
-    Q_EMIT told(tr("The pose is being solved again; try again in a moment."));
-    return;
-  }
+  if (!solvedPose()) return nullptr;
+  if (!stale_) return document_.session().findCase(case_id_);
+  Q_EMIT told(tr("The pose is being solved again; try again in a moment."));
+  return nullptr;
+}
+
+void AnnotationController::useAsTruth() {
+  const sessions::SessionCase* session_case = caseWithPose();
+  if (!session_case) return;
   const bool replaces = session_case->camera_from_station_truth.has_value();
   const sessions::CaseAnnotations& annotations = answer_.solution->annotations;
   const std::string excess =
       sessions::sigmaExcessText(answer_.covariance.value_or(Matrix6d::Zero()),
                                 annotations.camera_from_end_effector, annotations.requirement);
   sessions::SessionCase changed = *session_case;
-  sessions::setTruth(changed, *solved, answer_.covariance);
+  sessions::setTruth(changed, *solvedPose(), answer_.covariance);
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Use the annotated pose of %1 as its truth").arg(fromText(case_id_)));
   QString text =
@@ -300,19 +277,14 @@ void AnnotationController::useAsTruth() {
 }
 
 void AnnotationController::useAsSeed() {
-  finishMove();
-  const std::optional<Pose> solved = solvedPose();
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
-  if (!session_case || !state_.currentCase() || !solved) return;
-  if (stale_) {
-    Q_EMIT told(tr("The pose is being solved again; try again in a moment."));
-    return;
-  }
-  document_.edit(sessions::withCase(document_.session(),
-                                    sessions::withMeasuredSeed(
-                                        *session_case, state_.currentCase()->scene.view(), *solved,
-                                        answer_.covariance.value_or(Matrix6d::Zero()))),
-                 tr("Use the annotated pose of %1 as its seed").arg(fromText(case_id_)));
+  const sessions::SessionCase* session_case = state_.currentCase() ? caseWithPose() : nullptr;
+  if (!session_case) return;
+  document_.edit(
+      sessions::withCase(
+          document_.session(),
+          sessions::withMeasuredSeed(*session_case, state_.currentCase()->scene.view(),
+                                     *solvedPose(), answer_.covariance.value_or(Matrix6d::Zero()))),
+      tr("Use the annotated pose of %1 as its seed").arg(fromText(case_id_)));
   Q_EMIT told(tr("The annotated pose is the seed of %1, with 3 sigma as its uncertainty.")
                   .arg(fromText(case_id_)));
 }

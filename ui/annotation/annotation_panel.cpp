@@ -13,12 +13,13 @@
 #include "sessions/annotation/annotations.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/session/rig_links.h"
-#include "sessions/trace/run_headline.h"
+#include "sessions/trace/run_text.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/models/text.h"
 #include "ui/panels/run/pose_comparison.h"
 #include "ui/panels/run/pose_panel.h"
 #include "ui/state/document.h"
+#include "ui/views/view_transform.h"
 #include "ui/widgets/column_fitter.h"
 #include "ui/widgets/widgets.h"
 
@@ -198,95 +199,89 @@ QString geometryMeterText(const AnnotationAnswer& answer) {
 
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others) {
   if (!answer.solution) return {};
-  QString html = warningsHtml(*answer.solution);
+  const QString html = warningsHtml(*answer.solution);
   const auto annotated = answer.solution->camera_from_station();
   if (!annotated) return html;
-  html += sigmaHtml(answer);
-  html += ambiguityHtml(*answer.solution);
-  html += viewsHtml(*answer.solution);
-  html += comparedHtml(answer, others, *annotated);
-  return html;
+  return html + sigmaHtml(answer) + ambiguityHtml(*answer.solution) + viewsHtml(*answer.solution) +
+         comparedHtml(answer, others, *annotated);
 }
 
-LandmarksMenu::LandmarksMenu(AnnotationController& controller, QWidget* parent)
-    : QMenu(parent), controller_(controller) {
-  connect(this, &QMenu::aboutToShow, this, &LandmarksMenu::fill);
-  fill();
-}
-
-void LandmarksMenu::fill() {
-  clear();
-  addAction(tr("Open ..."), this, &LandmarksMenu::openRequested);
-  addAction(tr("Save as landmarks ..."), this, &LandmarksMenu::saveRequested);
-  addSeparator();
+/// The station's named points without annotation in this image: to confirm their predictions, or to
+/// begin one by name and click it.
+void AnnotationPanel::fillLandmarks() {
+  QMenu& menu = *ui_.landmarks->menu();
+  menu.clear();
+  menu.addAction(tr("Open ..."), this, &AnnotationPanel::openLandmarksRequested);
+  menu.addAction(tr("Save as landmarks ..."), this, &AnnotationPanel::saveLandmarksRequested);
+  menu.addSeparator();
   QAction* confirm =
-      addAction(tr("Annotate all visible landmarks (%1)").arg(controller_.seenProposals()),
-                &controller_, &AnnotationController::confirmSeen);
+      menu.addAction(tr("Annotate all visible landmarks (%1)").arg(controller_.seenProposals()),
+                     &controller_, &AnnotationController::confirmSeen);
   confirm->setEnabled(controller_.seenProposals() > 0);
-  addSeparator();
+  menu.addSeparator();
   bool any = false;
   for (const sessions::Landmark& landmark : controller_.landmarks()) {
     if (sessions::findPoint(controller_.annotations(), landmark.name)) continue;
     any = true;
-    QAction* begin = addAction(tr("Begin %1").arg(fromText(landmark.name)), this, [this, landmark] {
-      controller_.setMode(PlaceMode::kPoint);
-      controller_.begin(landmark);
-    });
+    QAction* begin =
+        menu.addAction(tr("Begin %1").arg(fromText(landmark.name)), this, [this, landmark] {
+          controller_.setMode(PlaceMode::kPoint);
+          controller_.begin(landmark);
+        });
     begin->setToolTip(fromText(landmark.comment));
   }
   if (!any)
-    addAction(controller_.landmarks().empty() ? tr("No landmarks are open")
-                                              : tr("Every landmark is annotated in this image"))
+    menu.addAction(controller_.landmarks().empty()
+                       ? tr("No landmarks are open")
+                       : tr("Every landmark is annotated in this image"))
         ->setEnabled(false);
 }
 
-RigMenu::RigMenu(Document& document, ViewState& state, AnnotationController& controller,
-                 QWidget* parent)
-    : QMenu(parent), document_(document), state_(state), controller_(controller) {
-  connect(this, &QMenu::aboutToShow, this, &RigMenu::fill);
-}
-
-void RigMenu::fill() {
-  clear();
+/// The cases that are solved together with the shown one: opens, links and unlinks them.
+void AnnotationPanel::fillRig() {
+  QMenu& menu = *ui_.rig->menu();
+  menu.clear();
   const sessions::Session& session = document_.session();
   const sessions::SessionCase* shown = shownCase(document_, state_);
   if (!shown) {
-    addAction(tr("No case is open"))->setEnabled(false);
+    menu.addAction(tr("No case is open"))->setEnabled(false);
     return;
   }
   const std::vector<std::string> linked = sessions::casesOfRig(session, shown->id);
   for (const std::string& id : linked)
-    addAction(tr("Go to %1").arg(fromText(id)), this,
-              [this, id] { Q_EMIT openRequested(fromText(id)); });
+    menu.addAction(tr("Go to %1").arg(fromText(id)), this,
+                   [this, id] { Q_EMIT openCaseRequested(fromText(id)); });
   if (!linked.empty()) {
-    addAction(tr("Take %1 out of this rig").arg(fromText(shown->id)), &controller_,
-              &AnnotationController::unlinkCase);
-    addSeparator();
+    menu.addAction(tr("Take %1 out of this rig").arg(fromText(shown->id)), &controller_,
+                   &AnnotationController::unlinkCase);
+    menu.addSeparator();
   }
-  QMenu* links = addMenu(tr("Link with"));
+  QMenu* links = menu.addMenu(tr("Link with"));
   for (const auto& other : session.cases)
     if (other->id != shown->id && other->station == shown->station &&
-        std::find(linked.begin(), linked.end(), other->id) == linked.end())
+        std::ranges::count(linked, other->id) == 0)
       addLinks(*links->addMenu(fromText(other->id)), *shown, *other);
   if (links->isEmpty()) links->addAction(tr("No other case of this station"))->setEnabled(false);
 }
 
-void RigMenu::addLinks(QMenu& menu, const sessions::SessionCase& shown,
-                       const sessions::SessionCase& other) {
-  const std::string id = other.id;
-  menu.addAction(tr("The same camera, not moved"), this,
-                 [this, id] { controller_.linkCase(id, Pose()); });
-  if (const auto other_from_shown = sessions::linkOfTruths(shown, other))
-    menu.addAction(tr("As the true poses say"), this,
-                   [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
+void AnnotationPanel::addLinks(QMenu& menu, const sessions::SessionCase& shown,
+                               const sessions::SessionCase& other) {
+  const auto add = [&](const QString& text, const Pose& other_from_shown) {
+    menu.addAction(text, this, [this, id = other.id, other_from_shown] {
+      controller_.linkCase(id, other_from_shown);
+    });
+  };
+  add(tr("The same camera, not moved"), Pose());
+  if (const auto link = sessions::linkOfTruths(shown, other))
+    add(tr("As the true poses say"), *link);
   if (const auto link = sessions::linkOfFrames(shown, other))
-    menu.addAction(tr("As the frames say (%1)").arg(fromText(sessions::frameText(link->frame))),
-                   this,
-                   [this, id, link = link->other_from_case] { controller_.linkCase(id, link); });
-  menu.addAction(tr("By a pose from the clipboard ..."), this, [this, id] { askForPose(id); });
+    add(tr("As the frames say (%1)").arg(fromText(sessions::frameText(link->frame))),
+        link->other_from_case);
+  menu.addAction(tr("By a pose from the clipboard ..."), this,
+                 [this, id = other.id] { askForPose(id); });
 }
 
-void RigMenu::askForPose(const std::string& other_id) {
+void AnnotationPanel::askForPose(const std::string& other_id) {
   PastePoseDialog dialog(QGuiApplication::clipboard()->text(), this);
   dialog.setWindowTitle(
       tr("Pose of %1 from the shown camera: p_other = R p_shown + t").arg(fromText(other_id)));
@@ -296,20 +291,13 @@ void RigMenu::askForPose(const std::string& other_id) {
 
 AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& controller,
                                  ViewState& state, QWidget* parent)
-    : QWidget(parent),
-      controller_(controller),
-      state_(state),
-      files_menu_(new QMenu(this)),
-      landmarks_menu_(new LandmarksMenu(controller, this)) {
+    : QWidget(parent), document_(document), controller_(controller), state_(state) {
   filter_.setSourceModel(&model_);
   ui_.setupUi(this);
   ui_.splitter->setSizes({500, 400});
-  auto* rig = new RigMenu(document, state, controller, this);
-  connect(rig, &RigMenu::openRequested, this, &AnnotationPanel::openCaseRequested);
-  ui_.annotationFiles->setMenu(files_menu_);
-  ui_.landmarks->setMenu(landmarks_menu_);
-  ui_.rounds->setMenu(new QMenu(this));
-  ui_.rig->setMenu(rig);
+  for (QToolButton* button : {ui_.annotationFiles, ui_.landmarks, ui_.rounds, ui_.rig})
+    button->setMenu(new QMenu(this));
+  fillLandmarks();
   buildTable();
   connectTools();
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationPanel::showMode);
@@ -326,8 +314,6 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
   showAnnotations();
   showSolution();
 }
-
-QTableView& AnnotationPanel::table() { return *ui_.annotations; }
 
 void AnnotationPanel::setSnapper(const StationSnapper& snapper) {
   const auto take = [this, &snapper] { model_.setMesh(snapper.mesh()); };
@@ -352,7 +338,9 @@ void AnnotationPanel::connectTools() {
       controller_.setMode(on ? chosen : PlaceMode::kOff);
       showMode();
     });
-  connect(ui_.rounds->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showRounds);
+  connect(ui_.landmarks->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::fillLandmarks);
+  connect(ui_.rounds->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::fillRounds);
+  connect(ui_.rig->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::fillRig);
   connect(ui_.newSigma, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
           &AnnotationController::setSigma);
   connect(ui_.robust, &QCheckBox::toggled, &controller_, &AnnotationController::setRobust);
@@ -454,7 +442,7 @@ void AnnotationPanel::showSolution() {
   ui_.together->setVisible(loaded_case && loaded_case->source.rig);
 }
 
-void AnnotationPanel::showRounds() {
+void AnnotationPanel::fillRounds() {
   QMenu& menu = *ui_.rounds->menu();
   menu.clear();
   QAction* aside = menu.addAction(tr("Set annotations aside, begin a blind round ..."), this,
@@ -463,10 +451,10 @@ void AnnotationPanel::showRounds() {
   menu.addSeparator();
   for (int i = 0; i < static_cast<int>(controller_.answer().rounds.size()); ++i) {
     const auto& round = controller_.answer().rounds[static_cast<std::size_t>(i)];
-    QMenu* q_menu =
+    QMenu* actions =
         menu.addMenu(QStringLiteral("%1, %2").arg(fromText(round.by), fromText(round.time)));
-    q_menu->addAction(tr("Continue"), this, [this, i] { controller_.takeUp(i); });
-    q_menu->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
+    actions->addAction(tr("Continue"), this, [this, i] { controller_.takeUp(i); });
+    actions->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
   }
 }
 
@@ -480,8 +468,7 @@ void AnnotationPanel::askForName() {
 
 /// Arrows move the chosen annotation as they do in the image, with Ctrl they go to other rows.
 bool AnnotationPanel::pressArrow(const QKeyEvent& key) {
-  const QPointF way((key.key() == Qt::Key_Right) - (key.key() == Qt::Key_Left),
-                    (key.key() == Qt::Key_Down) - (key.key() == Qt::Key_Up));
+  const QPointF way = arrowOf(key.key());
   if (way.isNull() || controller_.selected().empty()) return false;
   if ((key.modifiers() & Qt::ControlModifier) != 0) {
     const QModelIndex current = ui_.annotations->currentIndex();
@@ -491,25 +478,24 @@ bool AnnotationPanel::pressArrow(const QKeyEvent& key) {
     return true;
   }
   const double step_px = (key.modifiers() & Qt::ShiftModifier) != 0 ? 1.0 : 0.1;
-  controller_.nudge(step_px * Eigen::Vector2d(way.x(), way.y()));
+  controller_.nudge(step_px * vectorOf(way));
   return true;
 }
 
 /// Letters typed at the table look for a row; they do not switch layers. Enter moves to the chosen
 /// annotation in the image.
 bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == ui_.annotations && event->type() == QEvent::KeyPress &&
-      pressArrow(*static_cast<QKeyEvent*>(event)))
-    return true;
-  if (watched == ui_.annotations && event->type() == QEvent::KeyPress) {
-    const int key = static_cast<QKeyEvent*>(event)->key();
-    if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !controller_.selected().empty()) {
+  if (event->type() == QEvent::KeyPress) {
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    if (pressArrow(key)) return true;
+    if ((key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter) &&
+        !controller_.selected().empty()) {
       controller_.setMode(controller_.selectedLine() ? PlaceMode::kLine : PlaceMode::kPoint);
       Q_EMIT imageRequested();
       return true;
     }
   }
-  if (watched == ui_.annotations && event->type() == QEvent::ShortcutOverride) {
+  if (event->type() == QEvent::ShortcutOverride) {
     const auto& key = *static_cast<QKeyEvent*>(event);
     const bool plain = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier;
     if (plain && !key.text().isEmpty() && key.text().front().isLetterOrNumber()) event->accept();

@@ -37,46 +37,6 @@ QString geometryMeterText(const AnnotationAnswer& answer);
 /// and rounds. Colour is never the only indication.
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others);
 
-/// The station's named points without annotation in this image: to confirm their predictions, or to
-/// begin one by name and click it. Also opens and saves the file of landmarks.
-class LandmarksMenu : public QMenu {
-  Q_OBJECT
-
- public:
-  explicit LandmarksMenu(AnnotationController& controller, QWidget* parent = nullptr);
-
- Q_SIGNALS:
-  void openRequested();
-  void saveRequested();
-
- private:
-  void fill();
-
-  AnnotationController& controller_;
-};
-
-/// Menu of the cases that are solved together with the shown one: opens, links and unlinks them.
-class RigMenu : public QMenu {
-  Q_OBJECT
-
- public:
-  RigMenu(Document& document, ViewState& state, AnnotationController& controller,
-          QWidget* parent = nullptr);
-
- Q_SIGNALS:
-  void openRequested(const QString& case_id);
-
- private:
-  void fill();
-  void addLinks(QMenu& menu, const sessions::SessionCase& shown,
-                const sessions::SessionCase& other);
-  void askForPose(const std::string& other_id);
-
-  Document& document_;
-  ViewState& state_;
-  AnnotationController& controller_;
-};
-
 /// Panel for annotating: tools, the table of annotations, and the quality of the solved pose.
 class AnnotationPanel : public QWidget {
   Q_OBJECT
@@ -85,10 +45,8 @@ class AnnotationPanel : public QWidget {
   AnnotationPanel(Document& document, AnnotationController& controller, ViewState& state,
                   QWidget* parent = nullptr);
 
-  QTableView& table();
   /// The menu of annotations and poses from and to files; to be filled.
-  QMenu& filesMenu() { return *files_menu_; }
-  LandmarksMenu& landmarksMenu() { return *landmarks_menu_; }
+  QMenu& filesMenu() { return *ui_.annotationFiles->menu(); }
   /// Sets the snapper that names the points of the station.
   void setSnapper(const StationSnapper& snapper);
   /// Adds a widget next to the summary, shown when it has contents.
@@ -98,6 +56,8 @@ class AnnotationPanel : public QWidget {
 
  Q_SIGNALS:
   void openCaseRequested(const QString& case_id);
+  void openLandmarksRequested();
+  void saveLandmarksRequested();
   /// Requests the keyboard focus for the image.
   void imageRequested();
 
@@ -112,17 +72,21 @@ class AnnotationPanel : public QWidget {
   void showAnnotations();
   void showSelection();
   void showSolution();
-  void showRounds();
+  void fillLandmarks();
+  void fillRounds();
+  void fillRig();
+  void addLinks(QMenu& menu, const sessions::SessionCase& shown,
+                const sessions::SessionCase& other);
+  void askForPose(const std::string& other_id);
   void chooseRow(const QModelIndex& current);
   bool pressArrow(const QKeyEvent& key);
   std::vector<ComparedPose> otherPoses() const;
 
+  Document& document_;
   AnnotationController& controller_;
   ViewState& state_;
   AnnotationsModel model_;
   RowsFilter filter_;
-  QMenu* files_menu_;
-  LandmarksMenu* landmarks_menu_;
   bool showing_ = false;
   Ui::AnnotationPanel ui_;
 };

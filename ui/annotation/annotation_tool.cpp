@@ -14,7 +14,7 @@ namespace boresight::ui {
 namespace {
 
 /// How near one must point, on the screen: a mark's ring belongs to it.
-constexpr double kReach = kMarkRadius_px + 3.0;
+constexpr double kPressReach = kMarkRadius_px + 3.0;
 constexpr double kPressSlack = 3.0;    ///< on the screen
 constexpr double kShortestLine = 6.0;  ///< on the screen
 /// Those that change what a click does.
@@ -22,14 +22,6 @@ constexpr Qt::KeyboardModifiers kAimModifiers = Qt::ControlModifier | Qt::AltMod
 
 constexpr double kSmallStep_px = 0.1;
 constexpr double kLargeStep_px = 1.0;
-
-Eigen::Vector2d vectorOf(const QPointF& point) { return {point.x(), point.y()}; }
-
-/// Of an arrow key; zero for other keys.
-Eigen::Vector2d directionOf(int key) {
-  return {(key == Qt::Key_Right) - (key == Qt::Key_Left),
-          (key == Qt::Key_Down) - (key == Qt::Key_Up)};
-}
 
 }  // namespace
 
@@ -72,7 +64,6 @@ void AnnotationTool::showMode() {
   turn_ = 0;
   if (active()) {
     view_.claimTool(this);
-    view_.setFocus();  // for the keys
     updateAim();
   } else {
     clearAim();
@@ -109,12 +100,11 @@ void AnnotationTool::updateAim() {
                      snapper_.near(loaded_case->source.camera, *pose, pixel, how.radius_px), how);
   } else if (const auto handle = line_start_ ? std::nullopt : handleUnder(place)) {
     aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
-  } else if (const auto* proposal = proposalUnder(place)) {
-    aim_ = aimAtImage(*loaded_case, pixel, rules());
-    aim_.text = tr("%1, %2: click places it, right click to place it later")
-                    .arg(QString::fromStdString(proposal->landmark.name), aim_.text);
   } else {
     aim_ = aimAtImage(*loaded_case, pixel, rules());
+    if (const auto* proposal = proposalUnder(place))
+      aim_.text = tr("%1, %2: click places it, right click to place it later")
+                      .arg(QString::fromStdString(proposal->landmark.name), aim_.text);
   }
   focus_ = pointer_;
   view_.update();
@@ -132,8 +122,7 @@ bool AnnotationTool::lacksImageSide() const {
 }
 
 double AnnotationTool::screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const {
-  const QPointF away = view_.transform().toWidget(pointOf(pixel)) - place;
-  return std::hypot(away.x(), away.y());
+  return distance_px(view_.transform().toWidget(pixel), place);
 }
 
 /// The nearest within reach. While a chosen pair waits for its place, a click is that place.
@@ -141,7 +130,7 @@ const sessions::Proposal* AnnotationTool::proposalUnder(const QPointF& place) co
   if (drawsLines() || lacksImageSide()) return nullptr;
   if (!view_.layer(LayerId::kProposals).style.visible) return nullptr;
   const sessions::Proposal* found = nullptr;
-  double nearest = kReach;
+  double nearest = kPressReach;
   for (const sessions::Proposal& proposal : controller_.answer().proposals) {
     const double distance = screenDistance(proposal.pixel, place);
     if (distance > nearest) continue;
@@ -154,12 +143,12 @@ const sessions::Proposal* AnnotationTool::proposalUnder(const QPointF& place) co
 /// The nearest point or end of a line within reach.
 std::optional<AnnotationTool::Handle> AnnotationTool::handleUnder(const QPointF& place) const {
   std::optional<Handle> found;
-  double nearest = kReach;
+  double nearest = kPressReach;
   const auto offer = [&](const std::string& id, int end, const Eigen::Vector2d& pixel) {
     const double distance = screenDistance(pixel, place);
     if (distance > nearest) return;
     nearest = distance;
-    found = Handle{id, end, pixel};
+    found = Handle{id, end, pixel, false};
   };
   for (const sessions::PointPair& point : controller_.annotations().points)
     if (point.pixel) offer(point.id, 0, *point.pixel);
@@ -180,7 +169,7 @@ std::string AnnotationTool::stationOnlyUnder(const QPointF& place) const {
     if (point.pixel || !point.point_in_station_m) continue;
     const auto at =
         sessions::predictPlace(loaded_case->source.camera, *pose, *point.point_in_station_m);
-    if (at.valid && screenDistance(at.pixel, place) <= kReach) return point.id;
+    if (at.valid && screenDistance(at.pixel, place) <= kPressReach) return point.id;
   }
   return {};
 }
@@ -218,7 +207,7 @@ bool AnnotationTool::eventFilter(QObject* watched, QEvent* event) {
 bool AnnotationTool::mouseEvent(QEvent::Type type, const QMouseEvent& event) {
   const QPointF place = pointerPlace(event, view_);
   if (type == QEvent::MouseMove) return move(place, event.modifiers());
-  if (type == QEvent::MouseButtonRelease) return event.button() == Qt::LeftButton && release(event);
+  if (type == QEvent::MouseButtonRelease) return event.button() == Qt::LeftButton && release();
   return press(event, place);
 }
 
@@ -232,7 +221,7 @@ bool AnnotationTool::press(const QMouseEvent& event, const QPointF& place) {
   panning_ = false;
   if (line_start_ || (modifiers_ & Qt::ControlModifier) != 0) return true;
   if (const std::optional<Handle> handle = handleUnder(place)) {
-    drag_ = Drag{*handle, false};
+    drag_ = handle;
     end_ = handle->end;
     controller_.select(handle->id);
   } else if (const std::string id = stationOnlyUnder(place); !id.empty()) {
@@ -283,7 +272,7 @@ bool AnnotationTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers)
 
 /// The annotation keeps its distance from the pointer, so that taking hold of it moves nothing.
 void AnnotationTool::dragTo(const QPointF& pixel) {
-  Handle& handle = drag_->handle;
+  Handle& handle = *drag_;
   const Eigen::Vector2d by = vectorOf(pixel - view_.transform().toPixel(*press_));
   aim_ = aimAtImage(*state_.currentCase(), handle.pixel + by, rules());
   if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) return;
@@ -293,15 +282,15 @@ void AnnotationTool::dragTo(const QPointF& pixel) {
     aim_ = {};
     return;
   }
-  drag_->moved = true;
+  handle.moved = true;
   focus_ = pointOf(handle.pixel + by);
   view_.update();
   Q_EMIT aimChanged();
 }
 
-bool AnnotationTool::release(const QMouseEvent&) {
+bool AnnotationTool::release() {
   const std::optional<QPointF> pressed = std::exchange(press_, std::nullopt);
-  if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
+  if (const auto drag = std::exchange(drag_, std::nullopt)) {
     if (drag->moved) controller_.finishMove();
     updateAim();
     return true;
@@ -353,8 +342,8 @@ void AnnotationTool::paint(QPainter& painter, const QRectF& taken) const {
   if (!active() || !pointer_) return;
   if (line_start_) {
     painter.setRenderHint(QPainter::Antialiasing, true);
-    const QPointF from = view_.transform().toWidget(pointOf(*line_start_));
-    const QPointF to = view_.transform().toWidget(pointOf(aim_.pixel));
+    const QPointF from = view_.transform().toWidget(*line_start_);
+    const QPointF to = view_.transform().toWidget(aim_.pixel);
     for (const QPen& pen : {QPen(QColor(0, 0, 0, 170), 3.2), QPen(QColor(255, 255, 255), 1.4)}) {
       painter.setPen(pen);
       if (aim_.side == AimSide::kImage) painter.drawLine(from, to);
@@ -372,7 +361,7 @@ void AnnotationTool::paint(QPainter& painter, const QRectF& taken) const {
 bool AnnotationTool::isOwnKey(const QKeyEvent& event) {
   const int key = event.key();
   if ((event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) return key == Qt::Key_Alt;
-  return !directionOf(key).isZero() || key == Qt::Key_Delete || key == Qt::Key_Escape ||
+  return !arrowOf(key).isNull() || key == Qt::Key_Delete || key == Qt::Key_Escape ||
          key == Qt::Key_Tab;
 }
 
@@ -400,13 +389,10 @@ bool AnnotationTool::keyPress(const QKeyEvent& event) {
 bool AnnotationTool::nudge(const QKeyEvent& event) {
   if (controller_.selected().empty()) return false;
   const bool large = (event.modifiers() & Qt::ShiftModifier) != 0;
-  const Eigen::Vector2d by = (large ? kLargeStep_px : kSmallStep_px) * directionOf(event.key());
-  if (!controller_.nudge(by, end_)) return true;
-  const sessions::PointPair* point = controller_.selectedPoint();
-  const sessions::LinePair* line = controller_.selectedLine();
+  const QPointF by = (large ? kLargeStep_px : kSmallStep_px) * arrowOf(event.key());
+  if (!controller_.nudge(vectorOf(by), end_)) return true;
   aim_ = {};
-  if (point && point->pixel) focus_ = pointOf(*point->pixel);
-  if (line && line->line) focus_ = pointOf(end_ == 0 ? line->line->start : line->line->end);
+  if (const auto pixel = controller_.selectedPixel(end_)) focus_ = pointOf(*pixel);
   view_.update();
   Q_EMIT aimChanged();
   return true;
@@ -414,10 +400,10 @@ bool AnnotationTool::nudge(const QKeyEvent& event) {
 
 void AnnotationTool::escape() {
   turn_ = 0;
-  if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
+  if (const auto drag = std::exchange(drag_, std::nullopt)) {
     press_.reset();
     if (drag->moved) {
-      controller_.dragInImage(drag->handle.id, drag->handle.pixel, drag->handle.end);
+      controller_.dragInImage(drag->id, drag->pixel, drag->end);
       controller_.finishMove();
     }
   } else if (line_start_) {

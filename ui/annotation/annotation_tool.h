@@ -57,10 +57,7 @@ class AnnotationTool : public QObject {
     std::string id;
     int end = 0;  ///< of a line
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  };
-  struct Drag {
-    Handle handle;
-    bool moved = false;
+    bool moved = false;  ///< by the current drag
   };
 
   bool active() const { return controller_.mode() != PlaceMode::kOff; }
@@ -68,7 +65,7 @@ class AnnotationTool : public QObject {
   bool mouseEvent(QEvent::Type type, const QMouseEvent& event);
   bool press(const QMouseEvent& event, const QPointF& place);
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
-  bool release(const QMouseEvent& event);
+  bool release();
   void dragTo(const QPointF& pixel);
   /// Keys that shortcuts of the window must not take while the operator annotates.
   static bool isOwnKey(const QKeyEvent& event);
@@ -102,7 +99,7 @@ class AnnotationTool : public QObject {
   std::optional<QPointF> press_;  ///< on the widget, of a click that may become a pan
   QPointF last_;
   bool panning_ = false;
-  std::optional<Drag> drag_;
+  std::optional<Handle> drag_;
   std::optional<Eigen::Vector2d> line_start_;  ///< px, of an unfinished line
   int end_ = 0;                                ///< of the chosen line
 };

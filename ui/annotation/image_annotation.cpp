@@ -15,6 +15,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layer.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -22,14 +23,6 @@ namespace {
 constexpr double kShortestScale = 50.0;  ///< on the screen
 constexpr int kNoteMargin = 40;          ///< clear of the title
 constexpr int kBesideTools = 56;         ///< clear of the strip of tools
-
-std::optional<QPointF> placeOf(const AnnotationController& controller) {
-  const sessions::PointPair* point = controller.selectedPoint();
-  if (point && point->pixel) return QPointF(point->pixel->x(), point->pixel->y());
-  const sessions::LinePair* line = controller.selectedLine();
-  if (line && line->line) return QPointF(line->line->start.x(), line->line->start.y());
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -40,25 +33,22 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
       controller_(controller),
       state_(state),
       snapper_(snapper),
-      view_(&image.view()),
+      view_(image.view()),
       tool_(new AnnotationTool(image.view(), controller, state, snapper, this)),
       loupe_(new Loupe(image.view())),
       edges_(new PoseRenderer(this)) {
-  image_.view().setOverlay(this, [this](QPainter& painter) { paint(painter); });
+  view_.addOverlay(this, [this](QPainter& painter) { paint(painter); });
   connect(tool_, &AnnotationTool::aimChanged, this, &ImageAnnotation::lookThroughLoupe);
-  connect(&image_.display(), &DisplayImage::pictureChanged, this, &ImageAnnotation::showSamples);
-  connect(&image_.display(), &DisplayImage::levelsChanged, this, &ImageAnnotation::showSamples);
-  connect(&image_.view(), &ImageView::itemClicked, this, [this](LayerId layer, int item) {
+  connectEach(image_.display(), this, &ImageAnnotation::showSamples, &DisplayImage::pictureChanged,
+              &DisplayImage::levelsChanged);
+  connect(&view_, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
     if (layer == LayerId::kPoints) controller_.select(idOfSign(controller_.annotations(), item));
   });
-  for (auto signal : {&AnnotationController::annotationsChanged,
-                      &AnnotationController::selectionChanged, &AnnotationController::modeChanged})
-    connect(&controller_, signal, this, &ImageAnnotation::showAnnotations);
+  using Controller = AnnotationController;
+  connectEach(controller_, this, &ImageAnnotation::showAnnotations, &Controller::annotationsChanged,
+              &Controller::selectionChanged, &Controller::modeChanged);
   state_.onChange(ViewChange::kCase | ViewChange::kCursor | ViewChange::kNudgedPose, this,
                   &ImageAnnotation::showAnnotations);
-  connect(&controller_, &AnnotationController::solutionChanged, this,
-          &ImageAnnotation::hideWhileBlind);
-  connect(&image_, &ImagePanel::stylesChanged, this, &ImageAnnotation::hideWhileBlind);
   connect(&controller_, &AnnotationController::solutionChanged, this,
           &ImageAnnotation::showSolution);
   state_.onChange(ViewChange::kCase, this, &ImageAnnotation::showSolution);
@@ -66,15 +56,11 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
   connect(&snapper_, &StationSnapper::meshChanged, this, &ImageAnnotation::askForBand);
   connect(edges_, &PoseRenderer::rendered, this,
           [this](const std::shared_ptr<const sessions::RenderTrace>& render, int level) {
-            image_.setLines(LayerId::kAnnotationEdges, linesOf(*render, level));
+            view_.setPart(LayerId::kAnnotationEdges, &Layer::lines, linesOf(*render, level));
             loupe_->update();
           });
   showSamples();
   showSolution();
-}
-
-ImageAnnotation::~ImageAnnotation() {
-  if (view_) view_->setOverlay(this, {});
 }
 
 void ImageAnnotation::setMagnification(double magnification) {
@@ -86,56 +72,39 @@ void ImageAnnotation::setMagnification(double magnification) {
 /// The file's samples where they are read, else what the core sees.
 void ImageAnnotation::showSamples() {
   const DisplayImage& display = image_.display();
-  if (display.samples() && !display.showsCore()) {
-    loupe_->setSamples(display.samples());
-  } else if (!display.corePicture().isNull()) {
-    loupe_->setSamples(
-        std::make_shared<const sessions::ImageSamples>(samplesOf(display.corePicture())));
-  } else {
-    loupe_->setSamples(nullptr);
-  }
-}
-
-AnnotationLook ImageAnnotation::look() const {
-  AnnotationLook annotation_look;
-  annotation_look.selected = controller_.selected();
-  annotation_look.camera = state_.currentCase()->source.camera;
-  annotation_look.camera_from_station = tool_->stationPose();
-  if (controller_.solution())
-    annotation_look.outliers = controller_.solution()->outlierAnnotations();
-  return annotation_look;
+  DisplayImage::SamplesPtr samples = display.showsCore() ? nullptr : display.samples();
+  if (!samples && !display.corePicture().isNull())
+    samples = std::make_shared<const sessions::ImageSamples>(samplesOf(display.corePicture()));
+  loupe_->setSamples(std::move(samples));
 }
 
 void ImageAnnotation::showAnnotations() {
   if (!state_.currentCase()) {
     for (const LayerId id : {LayerId::kPoints, LayerId::kProposals, LayerId::kAnnotationResiduals})
-      image_.setMarks(id, {});
+      view_.setPart(id, &Layer::marks, {});
     return;
   }
-  const AnnotationLook shown = look();
+  AnnotationLook shown = {
+      controller_.selected(), {}, state_.currentCase()->source.camera, tool_->stationPose()};
+  if (controller_.solution()) shown.outliers = controller_.solution()->outlierAnnotations();
   const sessions::Annotations& annotations = controller_.annotations();
-  image_.setMarks(LayerId::kPoints, annotationSigns(annotations, shown));
-  image_.setMarks(LayerId::kProposals, proposalSigns(controller_.answer().proposals));
+  view_.setPart(LayerId::kPoints, &Layer::marks, annotationSigns(annotations, shown));
+  view_.setPart(LayerId::kProposals, &Layer::marks, proposalSigns(controller_.answer().proposals));
   std::vector<Mark> residuals;
   if (const std::optional<Pose> solved = controller_.solvedPose()) {
     const sessions::AnnotatedView view{{}, shown.camera, {}, annotations};
     residuals = residualSigns(sessions::annotationVectors(view, *solved), shown, magnification_,
                               controller_.stale());
   }
-  image_.setMarks(LayerId::kAnnotationResiduals, std::move(residuals));
+  view_.setPart(LayerId::kAnnotationResiduals, &Layer::marks, std::move(residuals));
   lookThroughLoupe();
 }
 
 /// In a blind round all that a pose predicts would show where to click; after it the layers are as
 /// before.
 void ImageAnnotation::hideWhileBlind() {
-  const auto show = [this](LayerId id, bool visible) {
-    LayerStyle style = image_.style(id);
-    style.visible = visible;
-    image_.setStyle(id, style);
-  };
   if (!controller_.answer().blind) {
-    for (const LayerId id : std::exchange(hidden_, {})) show(id, true);
+    for (const LayerId id : std::exchange(hidden_, {})) image_.showLayer(id, true);
     return;
   }
   constexpr LayerId kPredicted[] = {
@@ -146,16 +115,17 @@ void ImageAnnotation::hideWhileBlind() {
   for (const LayerId id : kPredicted) {
     if (!image_.style(id).visible) continue;
     if (std::ranges::count(hidden_, id) == 0) hidden_.push_back(id);
-    show(id, false);
+    image_.showLayer(id, false);
   }
 }
 
 void ImageAnnotation::showSolution() {
+  hideWhileBlind();
   if (rendered_case_ != state_.currentCase()) {
     rendered_case_ = state_.currentCase();
     rendered_pose_.reset();
     edges_->setCase(rendered_case_);
-    image_.setLines(LayerId::kAnnotationEdges, nullptr);
+    view_.setPart(LayerId::kAnnotationEdges, &Layer::lines, nullptr);
   }
   const bool shown = image_.style(LayerId::kAnnotationEdges).visible;
   const std::optional<Pose> solved = shown ? controller_.solvedPose() : std::nullopt;
@@ -165,7 +135,7 @@ void ImageAnnotation::showSolution() {
       edges_->setPose(*solved);
     } else {
       edges_->clear();
-      image_.setLines(LayerId::kAnnotationEdges, nullptr);
+      view_.setPart(LayerId::kAnnotationEdges, &Layer::lines, nullptr);
     }
   }
   askForBand();
@@ -180,7 +150,7 @@ void ImageAnnotation::askForBand() {
   if (!wanted) {
     band_of_.reset();
     runner_.cancel(QStringLiteral("band"));
-    image_.setMarks(LayerId::kAnnotationBand, {});
+    view_.setPart(LayerId::kAnnotationBand, &Layer::marks, {});
     return;
   }
   if (band_of_ == solution) return;
@@ -194,16 +164,18 @@ void ImageAnnotation::askForBand() {
                                   sessions::cameraCovariance(solved, view));
       },
       [this, solution](const Band& band) {
-        if (band_of_ == solution) image_.setMarks(LayerId::kAnnotationBand, bandSigns(band));
+        if (band_of_ == solution)
+          view_.setPart(LayerId::kAnnotationBand, &Layer::marks, bandSigns(band));
       });
 }
 
 void ImageAnnotation::lookThroughLoupe() {
-  const bool annotates = controller_.mode() != PlaceMode::kOff && state_.currentCase();
-  loupe_->lookAt(!annotates       ? std::nullopt
-                 : tool_->focus() ? tool_->focus()
-                                  : placeOf(controller_),
-                 tool_->aim());
+  std::optional<QPointF> place;
+  if (controller_.mode() != PlaceMode::kOff && state_.currentCase()) {
+    place = tool_->focus();
+    if (const auto pixel = controller_.selectedPixel(); pixel && !place) place = pointOf(*pixel);
+  }
+  loupe_->lookAt(place, tool_->aim());
 }
 
 /// What the operator does next, for the pair at work.
@@ -231,13 +203,13 @@ void ImageAnnotation::paint(QPainter& painter) const {
     paintBox(painter, at, nextStep());
     at.ry() += line + 2;
   }
-  const Layer& residuals = image_.view().layer(LayerId::kAnnotationResiduals);
+  const Layer& residuals = view_.layer(LayerId::kAnnotationResiduals);
   if (residuals.style.visible && !residuals.marks.empty()) paintResidualScale(painter, at);
   tool_->paint(painter, loupe_->isVisible() ? QRectF(loupe_->geometry()) : QRectF());
 }
 
 void ImageAnnotation::paintResidualScale(QPainter& painter, const QPointF& at) const {
-  const double screen_per_px = magnification_ * image_.view().transform().scale();
+  const double screen_per_px = magnification_ * view_.transform().scale();
   const double value_px = roundedUp(kShortestScale / screen_per_px);
   const double length = value_px * screen_per_px;
   const QString text = tr("residuals x %1:  %2 px").arg(magnification_).arg(value_px);

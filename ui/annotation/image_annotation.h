@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QObject>
-#include <QPointer>
 
 #include "sessions/annotation/edge_band.h"
 #include "ui/annotation/annotation_content.h"
@@ -25,7 +24,6 @@ class ImageAnnotation : public QObject {
  public:
   ImageAnnotation(ImagePanel& image, AnnotationController& controller, ViewState& state,
                   StationSnapper& snapper, QObject* parent = nullptr);
-  ~ImageAnnotation() override;
 
   AnnotationTool& tool() { return *tool_; }
   Loupe& loupe() { return *loupe_; }
@@ -43,7 +41,6 @@ class ImageAnnotation : public QObject {
   void hideWhileBlind();
   void askForBand();
   void lookThroughLoupe();
-  AnnotationLook look() const;
   void paint(QPainter& painter) const;
   QString nextStep() const;
   void paintResidualScale(QPainter& painter, const QPointF& at) const;
@@ -52,7 +49,7 @@ class ImageAnnotation : public QObject {
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;
-  QPointer<ImageView> view_;  ///< may be destroyed before this object
+  ImageView& view_;
   AnnotationTool* tool_;
   Loupe* loupe_;
   PoseRenderer* edges_;

@@ -6,22 +6,6 @@
 #include "sessions/annotation/image_snap.h"
 
 namespace boresight::ui {
-namespace {
-
-/// A snapper looks into the mesh of its case, which must stay as long.
-struct SearchedCase {
-  explicit SearchedCase(ViewState::CasePtr searched)
-      : one(std::move(searched)), mesh(one->scene.view()) {}
-
-  ViewState::CasePtr one;
-  sessions::MeshSnapper mesh;
-};
-
-bool haveSameMesh(const ViewState::CasePtr& a, const ViewState::CasePtr& b) {
-  return a && b && a->source.id == b->source.id && sessions::sameScene(a->source, b->source);
-}
-
-}  // namespace
 
 StationSnapper::StationSnapper(ViewState& state, QObject* parent) : QObject(parent), state_(state) {
   state_.onChange(ViewChange::kCase, this, &StationSnapper::takeCase);
@@ -31,7 +15,9 @@ StationSnapper::StationSnapper(ViewState& state, QObject* parent) : QObject(pare
 
 void StationSnapper::takeCase() {
   const ViewState::CasePtr before = std::exchange(case_, state_.currentCase());
-  if (haveSameMesh(before, case_)) return;  // an edit left it alone
+  if (before && case_ && before->source.id == case_->source.id &&
+      sessions::sameScene(before->source, case_->source))
+    return;  // an edit left the mesh alone
   mesh_.reset();
   const QString key = QStringLiteral("mesh");
   if (!case_) runner_.cancel(key);
@@ -40,8 +26,9 @@ void StationSnapper::takeCase() {
   runner_.start(
       key,
       [one = case_](const std::stop_token&) {
-        auto searched = std::make_shared<const SearchedCase>(one);
-        return MeshPtr(searched, &searched->mesh);
+        // The snapper looks into the mesh of the case, which must live as long.
+        return MeshPtr(new sessions::MeshSnapper(one->scene.view()),
+                       [one](const sessions::MeshSnapper* mesh) { delete mesh; });
       },
       [this](MeshPtr mesh) {
         mesh_ = std::move(mesh);

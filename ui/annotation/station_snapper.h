@@ -32,7 +32,7 @@ class StationSnapper : public QObject {
 
  Q_SIGNALS:
   void meshChanged();
-  /// A mesh that cannot be searched; one sentence.
+  /// The mesh cannot be searched; a sentence for the operator.
   void failed(const QString& message);
 
  private:

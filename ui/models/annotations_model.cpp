@@ -2,20 +2,19 @@
 #include "ui/models/annotations_model.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <QtWidgets>
 
+#include "sessions/text/units.h"
+
 namespace boresight::ui {
 namespace {
 
-using sessions::AnnotationAddress;
-using sessions::AnnotationKind;
+using sessions::kUnknown;
 using sessions::LinePair;
 using sessions::PointPair;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMillimetres = 1e3;
 
 template <class Pair>
@@ -35,19 +34,24 @@ using Solved = const sessions::SolvedAnnotation&;
 
 auto solved(double (*value)(Solved)) {
   return [value](AnnotationRef annotation) {
-    return annotation.solved && annotation.solved->projected ? value(*annotation.solved) : kNone;
+    return annotation.solved && annotation.solved->projected ? value(*annotation.solved) : kUnknown;
   };
 }
 auto leftOut(double sessions::LeftOut::*value) {
   return [value](AnnotationRef annotation) {
     return annotation.left_out && annotation.left_out->determined ? (*annotation.left_out).*value
-                                                                  : kNone;
+                                                                  : kUnknown;
+  };
+}
+auto pixel(int axis) {
+  return [axis](AnnotationRef annotation) {
+    return annotation.pixel ? (*annotation.pixel)[axis] : kUnknown;
   };
 }
 auto coordinate(int axis) {
   return [axis](AnnotationRef annotation) {
     return annotation.point_in_station_m ? kMillimetres * (*annotation.point_in_station_m)[axis]
-                                         : kNone;
+                                         : kUnknown;
   };
 }
 
@@ -62,13 +66,11 @@ std::vector<TableColumn<AnnotationRow>> annotationColumns() {
       {tr("u, px"),
        tr("Annotated position, pixels to the right of the centre of the top-left pixel; of a line "
           "its first point."),
-       2,
-       [](AnnotationRef annotation) { return annotation.pixel ? annotation.pixel->x() : kNone; }},
+       2, pixel(0)},
       {tr("v, px"),
        tr("Annotated position, pixels below the centre of the top-left pixel; of a line its first "
           "point."),
-       2,
-       [](AnnotationRef annotation) { return annotation.pixel ? annotation.pixel->y() : kNone; }},
+       2, pixel(1)},
       {tr("X, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
        coordinate(0)},
       {tr("Y, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
@@ -111,7 +113,7 @@ std::vector<TableColumn<AnnotationRow>> annotationColumns() {
   };
 }
 
-/// What points and lines have in common.
+/// Changes a field that points and lines have in common.
 template <class Mark>
 bool change(Mark& annotation, int column, const QVariant& value) {
   switch (column) {
@@ -142,39 +144,38 @@ bool change(Mark& annotation, int column, const QVariant& value) {
 /// Coordinates can be typed for points whose side is placed.
 bool changeCoordinate(PointPair& point, int column, double value) {
   if (!std::isfinite(value)) return false;
-  if (column == AnnotationsModel::kU_px || column == AnnotationsModel::kV_px) {
-    if (!point.pixel) return false;
-    (*point.pixel)[column - AnnotationsModel::kU_px] = value;
-    return true;
-  }
-  if (column < AnnotationsModel::kX_mm || column > AnnotationsModel::kZ_mm ||
-      !point.point_in_station_m)
+  using Model = AnnotationsModel;
+  const bool in_image = column == Model::kU_px || column == Model::kV_px;
+  const bool in_station = column >= Model::kX_mm && column <= Model::kZ_mm;
+  if (in_image && point.pixel)
+    (*point.pixel)[column - Model::kU_px] = value;
+  else if (in_station && point.point_in_station_m)
+    (*point.point_in_station_m)[column - Model::kX_mm] = value / kMillimetres;
+  else
     return false;
-  (*point.point_in_station_m)[column - AnnotationsModel::kX_mm] = value / kMillimetres;
   return true;
 }
 
-QString editText(int column, const std::string& id, bool on) {
-  const QString name = fromText(id);
+/// Name of an edit; %1 is the annotation.
+QString editText(int column, bool on) {
+  constexpr auto tr = [](const char* text) { return AnnotationsModel::tr(text); };
   switch (column) {
     case AnnotationsModel::kOn:
-      return on ? AnnotationsModel::tr("Turn %1 on").arg(name)
-                : AnnotationsModel::tr("Turn %1 off").arg(name);
+      return on ? tr("Turn %1 on") : tr("Turn %1 off");
     case AnnotationsModel::kLocked:
-      return on ? AnnotationsModel::tr("Lock %1").arg(name)
-                : AnnotationsModel::tr("Unlock %1").arg(name);
+      return on ? tr("Lock %1") : tr("Unlock %1");
     case AnnotationsModel::kName:
-      return AnnotationsModel::tr("Rename %1").arg(name);
+      return tr("Rename %1");
     case AnnotationsModel::kComment:
-      return AnnotationsModel::tr("Comment on %1").arg(name);
+      return tr("Comment on %1");
     case AnnotationsModel::kSigma_px:
-      return AnnotationsModel::tr("Sigma of %1").arg(name);
+      return tr("Sigma of %1");
     default:
-      return AnnotationsModel::tr("Move %1").arg(name);
+      return tr("Move %1");
   }
 }
 
-/// What the list can be narrowed to, in the order of `Show`.
+/// Filters of the list, in the order of `Show`.
 struct AnnotationChoice {
   const char* name;
   bool (*holds)(AnnotationRef annotation);
@@ -191,7 +192,7 @@ constexpr AnnotationChoice kAnnotationChoices[] = {
 
 }  // namespace
 
-AnnotationsModel::AnnotationsModel(QObject* parent) : RowsModel(annotationColumns(), parent) {}
+AnnotationsModel::AnnotationsModel() : RowsModel(annotationColumns()) {}
 
 int AnnotationsModel::rowOf(const std::string& id) const {
   return firstRow([&id](const AnnotationRow& row) { return row.id == id; });
@@ -228,8 +229,8 @@ QString AnnotationsModel::stationKind(const AnnotationRow& row) {
   return known->second;
 }
 
-/// What the solution says of a row is found by name, since rows may have come and gone. An editor
-/// that is open and the chosen row stay while the number of rows does.
+/// Results are matched to rows by name, since rows may have been added or removed since. An open
+/// editor and the chosen row stay while the number of rows is the same.
 void AnnotationsModel::fillRows() {
   std::vector<AnnotationRow> rows;
   for (const PointPair& point : annotations_.points) {
@@ -260,7 +261,8 @@ void AnnotationsModel::fillRows() {
   setRows(std::move(rows), same_count);
 }
 
-/// Half-made pairs are slanted, outliers bold, what is off struck out, what is out of date dimmed.
+/// Incomplete pairs are in italics, outliers bold, disabled annotations struck out, outdated
+/// results dimmed.
 QVariant AnnotationsModel::look(const AnnotationRow& row, int column, int role) const {
   const bool switches = column == kOn || column == kLocked;
   switch (role) {
@@ -310,10 +312,8 @@ Qt::ItemFlags AnnotationsModel::flags(const QModelIndex& index) const {
   if (column == kOn || column == kLocked) return flags | Qt::ItemIsUserCheckable;
   const AnnotationRow& annotation = at(index.row());
   const bool text = column == kName || column == kComment || column == kSigma_px;
-  const bool coordinate =
-      column == kU_px || column == kV_px || (column >= kX_mm && column <= kZ_mm);
-  const bool place =
-      annotation.point && coordinate && std::isfinite(valueOf(annotation, column).toDouble());
+  const bool place = annotation.point && column >= kU_px && column <= kZ_mm &&
+                     std::isfinite(valueOf(annotation, column).toDouble());
   return (text || place) && !annotation.locked ? flags | Qt::ItemIsEditable : flags;
 }
 
@@ -323,8 +323,8 @@ bool AnnotationsModel::setData(const QModelIndex& index, const QVariant& value, 
   if (check != (index.column() == kOn || index.column() == kLocked)) return false;
   const AnnotationRow& annotation = at(index.row());
   const std::string id = annotation.id;  // the row may be removed while the edit is reported
-  const bool on = value.toInt() == Qt::Checked;
-  const QString text = editText(index.column(), id, on);
+  const QString text =
+      editText(index.column(), value.toInt() == Qt::Checked).arg(fromText(annotation.id));
   if (annotation.line) {
     LinePair line = *annotation.line;
     if (!change(line, index.column(), value)) return false;

@@ -65,7 +65,7 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
 
   using SolutionPtr = std::shared_ptr<const sessions::CaseAnnotationsSolution>;
 
-  explicit AnnotationsModel(QObject* parent = nullptr);
+  AnnotationsModel();
 
   void setAnnotations(const sessions::Annotations& annotations);
   /// The solution of these annotations; residuals of annotations moved since are dimmed. nullptr:

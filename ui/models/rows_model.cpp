@@ -5,11 +5,16 @@
 
 namespace boresight::ui {
 
+QFont boldFont(QFont font, bool bold) {
+  font.setBold(bold);
+  return font;
+}
+
 QVariant columnAlignment(int decimals) {
   return static_cast<int>((decimals >= 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
 }
 
-RowsFilter::RowsFilter(QObject* parent) : QSortFilterProxyModel(parent) { setSortRole(kSortRole); }
+RowsFilter::RowsFilter() { setSortRole(kSortRole); }
 
 void RowsFilter::setCondition(Condition condition) {
   condition_ = std::move(condition);

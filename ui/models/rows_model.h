@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <QAbstractTableModel>
+#include <QFont>
 #include <QSortFilterProxyModel>
 
 #include "ui/models/text.h"
@@ -35,6 +36,9 @@ struct TableColumn {
   Value sort;    ///< sort key, if it is not the value
 };
 
+/// The font, bold or not.
+QFont boldFont(QFont font = QFont(), bool bold = true);
+
 /// Of cells and heads: numbers to the right, texts to the left.
 QVariant columnAlignment(int decimals);
 
@@ -42,8 +46,7 @@ QVariant columnAlignment(int decimals);
 template <class Row>
 class RowsModel : public QAbstractTableModel {
  public:
-  RowsModel(std::vector<TableColumn<Row>> columns, QObject* parent)
-      : QAbstractTableModel(parent), columns_(std::move(columns)) {}
+  explicit RowsModel(std::vector<TableColumn<Row>> columns) : columns_(std::move(columns)) {}
 
   const std::vector<Row>& rows() const { return rows_; }
   const Row& at(int row) const { return rows_[static_cast<std::size_t>(row)]; }
@@ -144,7 +147,7 @@ class RowsFilter : public QSortFilterProxyModel {
  public:
   using Condition = std::function<bool(int row)>;
 
-  explicit RowsFilter(QObject* parent = nullptr);
+  RowsFilter();
 
   /// Condition for rows of the source; without one all rows are shown.
   void setCondition(Condition condition);

@@ -29,11 +29,11 @@ constexpr std::array<Color, 9> kStops = {{{68, 1, 84},
 QPalette tinted(const QPalette& base, const QColor& towards) {
   const QColor window = base.color(QPalette::Window);
   const auto mixed = [](int a, int b) { return (3 * a + b) / 4; };
-  QPalette q_palette = base;
-  q_palette.setColor(QPalette::Window, QColor(mixed(window.red(), towards.red()),
-                                              mixed(window.green(), towards.green()),
-                                              mixed(window.blue(), towards.blue())));
-  return q_palette;
+  QPalette palette = base;
+  palette.setColor(QPalette::Window, QColor(mixed(window.red(), towards.red()),
+                                            mixed(window.green(), towards.green()),
+                                            mixed(window.blue(), towards.blue())));
+  return palette;
 }
 
 QColor heatColor(double value) {

@@ -56,11 +56,8 @@ QVector<QwtIntervalSample> samplesOf(double radius, const QVector<int>& counts) 
 
 }  // namespace
 
-Plot::Plot(int least_height_px, QWidget* parent)
-    : QWidget(parent),
-      plot_(new QwtPlot(this)),
-      grid_(new QwtPlotGrid),
-      marker_(new QwtPlotMarker) {
+Plot::Plot(int least_height_px)
+    : plot_(new QwtPlot(this)), grid_(new QwtPlotGrid), marker_(new QwtPlotMarker) {
   plot_->setMinimumSize(180, least_height_px);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -98,12 +95,10 @@ void Plot::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) applyPalette();
   // A new style sheet gives the canvas its former colours back after this event.
   if (event->type() == QEvent::StyleChange)
-    QMetaObject::invokeMethod(
-        this, [this] { applyPalette(); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(this, &Plot::applyPalette, Qt::QueuedConnection);
 }
 
-DoublePlot::DoublePlot(const Series& left, const Series& right, QWidget* parent)
-    : Plot(90, parent) {
+DoublePlot::DoublePlot(const Series& left, const Series& right) : Plot(90) {
   plot_->setAxisMaxMinor(QwtPlot::xBottom, 0);
   plot_->canvas()->installEventFilter(this);
   plot_->canvas()->setCursor(Qt::PointingHandCursor);
@@ -128,7 +123,6 @@ void DoublePlot::addCurve(Curve& curve, const Series& series, int axis) {
 }
 
 void DoublePlot::setNames(std::function<QString(int)> name_of) {
-  name_of_ = name_of;
   names_ = new NamedScale(std::move(name_of));
   plot_->setAxisScaleDraw(QwtPlot::xBottom, names_);  // which owns it
 }
@@ -146,7 +140,8 @@ void DoublePlot::setPoints(int place_count, const QVector<QPointF>& left,
 void DoublePlot::nameIterations() {
   if (names_) names_->forgetNames();
   const int last = std::max(0, place_count_ - 1);
-  const QString widest = (name_of_ ? name_of_(last) : QString::number(last)) + QLatin1Char(' ');
+  const QString widest =
+      (names_ ? names_->label(last).text() : QString::number(last)) + QLatin1Char(' ');
   const int name_px = fontMetrics().horizontalAdvance(widest);
   const double most = std::max(1, plot_->canvas()->width() / name_px);
   const double step = std::max(1.0, std::ceil(place_count_ / most));
@@ -157,13 +152,11 @@ void DoublePlot::fill(Curve& curve, const QVector<QPointF>& points) {
   QVector<QPointF> drawn = points;
   if (curve.series.logarithmic)
     for (QPointF& point : drawn) point.setY(std::max(point.y(), kSmallest));
-  curve.count = static_cast<int>(drawn.size());
   curve.curve->setSamples(drawn);
-  if (curve.count > 0) {
+  if (!drawn.isEmpty())
     plot_->setAxisAutoScale(curve.axis);
-  } else {
+  else
     plot_->setAxisScale(curve.axis, curve.series.logarithmic ? 0.1 : 0.0, 1.0);
-  }
 }
 
 void DoublePlot::setMarked(int place) {
@@ -172,16 +165,13 @@ void DoublePlot::setMarked(int place) {
   plot_->replot();
 }
 
+int DoublePlot::leftCount() const { return static_cast<int>(left_.curve->dataSize()); }
+
 QWidget* DoublePlot::canvas() const { return plot_->canvas(); }
 
 QPoint DoublePlot::canvasPoint(int place) const {
   return {static_cast<int>(std::lround(plot_->transform(QwtPlot::xBottom, place))),
           canvas()->height() / 2};
-}
-
-void DoublePlot::showTitle(const PlotColors& colors) {
-  nameQuantities({QStringLiteral("●"), left_.series.title, colors.first},
-                 {QStringLiteral("◆"), right_.series.title, colors.second});
 }
 
 void DoublePlot::applyColors(const PlotColors& colors) {
@@ -192,17 +182,16 @@ void DoublePlot::applyColors(const PlotColors& colors) {
   right_.curve->setPen(colors.second, 1.5, Qt::DashLine);
   right_.curve->setSymbol(
       new QwtSymbol(QwtSymbol::Diamond, colors.second, QPen(colors.second), QSize(10, 10)));
-  showTitle(colors);
+  nameQuantities({QStringLiteral("●"), left_.series.title, colors.first},
+                 {QStringLiteral("◆"), right_.series.title, colors.second});
 }
 
 bool DoublePlot::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == plot_->canvas() && event->type() == QEvent::Resize) {
+  if (event->type() == QEvent::Resize) {
     nameIterations();
-    QMetaObject::invokeMethod(
-        plot_, [plot = plot_] { plot->replot(); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(plot_, &QwtPlot::replot, Qt::QueuedConnection);
   }
-  if (watched != plot_->canvas() || event->type() != QEvent::MouseButtonPress)
-    return QWidget::eventFilter(watched, event);
+  if (event->type() != QEvent::MouseButtonPress) return QWidget::eventFilter(watched, event);
   const auto* mouse = static_cast<QMouseEvent*>(event);
   const double place = plot_->invTransform(QwtPlot::xBottom, mouse->pos().x());
   const int clicked = static_cast<int>(std::lround(place));
@@ -211,8 +200,8 @@ bool DoublePlot::eventFilter(QObject* watched, QEvent* event) {
 }
 
 HistogramPlot::HistogramPlot(const QString& axis_title, const QString& all_title,
-                             const QString& part_title, QWidget* parent)
-    : Plot(110, parent),
+                             const QString& part_title)
+    : Plot(110),
       all_(new QwtPlotHistogram(all_title)),
       part_(new QwtPlotHistogram(part_title)),
       axis_title_(axis_title) {

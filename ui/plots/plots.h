@@ -26,7 +26,7 @@ class Plot : public QWidget {
   Q_OBJECT
 
  protected:
-  Plot(int least_height_px, QWidget* parent);
+  explicit Plot(int least_height_px);
 
   /// Applies colours and texts of the kind of plot.
   virtual void applyColors(const PlotColors& colors) = 0;
@@ -58,7 +58,7 @@ class DoublePlot : public Plot {
     bool logarithmic = false;
   };
 
-  DoublePlot(const Series& left, const Series& right, QWidget* parent = nullptr);
+  DoublePlot(const Series& left, const Series& right);
 
   /// Names places on the horizontal axis.
   void setNames(std::function<QString(int)> name_of);
@@ -70,7 +70,7 @@ class DoublePlot : public Plot {
   QWidget* canvas() const;
   /// Position of a place on the canvas, at half its height.
   QPoint canvasPoint(int place) const;
-  int leftCount() const { return left_.count; }
+  int leftCount() const;
 
  Q_SIGNALS:
   void chosen(int place);
@@ -84,17 +84,14 @@ class DoublePlot : public Plot {
     Series series;
     QwtPlotCurve* curve = nullptr;
     int axis = 0;
-    int count = 0;
   };
   void addCurve(Curve& curve, const Series& series, int axis);
   void fill(Curve& curve, const QVector<QPointF>& points);
   void nameIterations();
-  void showTitle(const PlotColors& colors);
 
   Curve left_;
   Curve right_;
   int place_count_ = 0;
-  std::function<QString(int)> name_of_;
   NamedScale* names_ = nullptr;
 };
 
@@ -104,8 +101,7 @@ class HistogramPlot : public Plot {
   Q_OBJECT
 
  public:
-  HistogramPlot(const QString& axis_title, const QString& all_title, const QString& part_title,
-                QWidget* parent = nullptr);
+  HistogramPlot(const QString& axis_title, const QString& all_title, const QString& part_title);
 
   /// As many bins as counts (both the same), evenly over -radius ... radius.
   void setCounts(double radius, const QVector<int>& all, const QVector<int>& part);

@@ -5,6 +5,8 @@
 
 #include <QtWidgets>
 
+#include "ui_check_card.h"
+
 #include "sessions/checks/pose_quality.h"
 #include "ui/models/text.h"
 #include "ui/style/tokens.h"
@@ -26,8 +28,7 @@ QString foundAndLimit(const sessions::Check& check) {
 }
 
 CheckCards::CheckCards(QWidget* parent) : QWidget(parent), cards_(new QVBoxLayout(this)) {
-  cards_->setContentsMargins(0, 0, 0, 0);
-  cards_->setSpacing(kBlockGap);
+  withoutMargins(cards_, kBlockGap);
 }
 
 void CheckCards::setChecks(const std::vector<FailedCheck>& failed, bool current) {
@@ -35,11 +36,7 @@ void CheckCards::setChecks(const std::vector<FailedCheck>& failed, bool current)
   for (const FailedCheck& each : failed) checks.push_back(each.check);
   if (std::exchange(checks_, checks) != checks_) {
     reasons_.clear();
-    while (QLayoutItem* item = cards_->takeAt(0)) {
-      item->widget()->hide();
-      item->widget()->deleteLater();  // the reason that changed the checks may be its own
-      delete item;
-    }
+    clearLayoutLater(*cards_);  // the reason that changed the checks may be one of the cards'
     for (const sessions::Check& check : checks_) cards_->addWidget(cardOf(check));
   }
   for (std::size_t i = 0; i < failed.size(); ++i) {
@@ -51,45 +48,23 @@ void CheckCards::setChecks(const std::vector<FailedCheck>& failed, bool current)
 
 QWidget* CheckCards::cardOf(const sessions::Check& check) {
   auto* card = new QFrame;
-  card->setProperty("card", true);
-  auto* title = new QLabel(QStringLiteral("✗ ") + fromText(check.title));
-  title->setProperty("title", true);
-  title->setWordWrap(true);
-  auto* found = new QLabel(foundAndLimit(check));
-  auto* sentence = new QLabel(fromText(check.sentence));
-  sentence->setTextFormat(Qt::PlainText);
-  sentence->setWordWrap(true);
-  sentence->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  auto* reason = named(new QLineEdit, "waiver",
-                       tr("A pose with a failed check needs a reason to waive it; the reason is "
-                          "stored with the pose, and dropped when the figure changes"));
-  reason->setPlaceholderText(tr("Why does it not matter?"));
-  reason->setAccessibleName(tr("Reason to waive '%1'").arg(fromText(check.title)));
-  connect(reason, &QLineEdit::editingFinished, this, [this, reason, id = check.id] {
+  Ui::CheckCard ui;
+  ui.setupUi(card);
+  const QString title = fromText(check.title);
+  ui.title->setText(QStringLiteral("✗ ") + title);
+  ui.found->setText(foundAndLimit(check));
+  ui.sentence->setText(fromText(check.sentence));
+  ui.waiver->setAccessibleName(tr("Reason to waive '%1'").arg(title));
+  ui.showCheck->setIcon(iconOf(Icon::kSearch));
+  ui.showCheck->setAccessibleName(tr("Show what '%1' comes from").arg(title));
+  connect(ui.waiver, &QLineEdit::editingFinished, this, [this, reason = ui.waiver, id = check.id] {
     reason->setModified(false);
     Q_EMIT reasonEdited(id, reason->text().trimmed());
   });
-  reasons_.push_back(reason);
-  auto* show = named(new QPushButton(iconOf(Icon::kSearch), tr("Show")), "showCheck",
-                     tr("Show what this figure comes from"));
-  show->setAccessibleName(tr("Show what '%1' comes from").arg(fromText(check.title)));
   connect(
-      show, &QPushButton::clicked, this, [this, id = check.id] { Q_EMIT showRequested(id); },
-      Qt::QueuedConnection);
-  auto* answer = new QHBoxLayout;
-  answer->setSpacing(kBlockGap);
-  answer->addWidget(reason, 1);
-  answer->addWidget(show);
-  auto* head = new QHBoxLayout;
-  head->setSpacing(kBlockGap);
-  head->addWidget(title, 1);
-  head->addWidget(found, 0, Qt::AlignTop);
-  auto* column = new QVBoxLayout(card);
-  column->setContentsMargins(kBlockGap, kBlockGap, kBlockGap, kBlockGap);
-  column->setSpacing(kBlockGap / 2);
-  column->addLayout(head);
-  column->addWidget(sentence);
-  column->addLayout(answer);
+      ui.showCheck, &QPushButton::clicked, this,
+      [this, id = check.id] { Q_EMIT showRequested(id); }, Qt::QueuedConnection);
+  reasons_.push_back(ui.waiver);
   return card;
 }
 

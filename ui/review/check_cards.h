@@ -38,7 +38,7 @@ class CheckCards : public QWidget {
 
  Q_SIGNALS:
   void reasonEdited(const std::string& check_id, const QString& reason);
-  /// What the figure comes from should be shown.
+  /// Requests to show the source of the figure.
   void showRequested(const std::string& check_id);
 
  private:

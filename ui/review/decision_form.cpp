@@ -68,8 +68,7 @@ QString doneText(ReviewController::Act act) {
 
 }  // namespace
 
-DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
-    : QWidget(parent), controller_(controller) {
+DecisionForm::DecisionForm(ReviewController& controller) : controller_(controller) {
   ui_.setupUi(this);
   buttons_ = {{Act::kValidate, ui_.validate},
               {Act::kApprove, ui_.approve},
@@ -123,7 +122,7 @@ void DecisionForm::endQuestion() {
 
 void DecisionForm::decide(Act act, bool then_next) {
   const QString id = fromText(controller_.caseId());
-  const QString following = then_next ? nextCase() : QString();  // as things are listed now
+  const QString following = then_next && next_ ? next_() : QString();  // as things are listed now
   const QString reason = controller_.obstacle(act, signature());
   if (!reason.isEmpty() || !controller_.decide(act, signature())) {
     refusal_ = reason.isEmpty() ? tr("No decision was stored.") : sentence(reason);
@@ -158,12 +157,6 @@ ReviewController::Act DecisionForm::nextStep() const {
   return status.holds() ? Act::kTakeBack : Act::kValidate;
 }
 
-/// Whether a decision on the case holds, which can be withdrawn.
-bool DecisionForm::isDecided() const {
-  const auto history = controller_.history();  // the newest first
-  return !history.empty() && history.front()->verdict != Verdict::kReopened;
-}
-
 void DecisionForm::showWhatIsPossible() {
   refusal_.clear();
   const sessions::Signature who = signature();
@@ -176,12 +169,13 @@ void DecisionForm::showWhatIsPossible() {
   }
   ui_.validateNext->setEnabled(ui_.validate->isEnabled());
   // A row of whole words has room for what can be decided now, and not for all that ever can.
-  const bool decided = isDecided();
+  const auto history = controller_.history();  // the newest first
+  const bool decided = !history.empty() && history.front()->verdict != Verdict::kReopened;
   ui_.validateNext->setVisible(!decided && controller_.hasOtherCases());
   ui_.takeBack->setVisible(decided);
   ui_.approve->setVisible(decided && controller_.settings().second_person);
-  const bool told = nextStep() != Act::kTakeBack;
-  obstacle_ = told ? sentence(controller_.obstacle(nextStep(), who)) : QString();
+  const Act next = nextStep();
+  obstacle_ = next == Act::kTakeBack ? QString() : sentence(controller_.obstacle(next, who));
   showReading();
 }
 
@@ -189,8 +183,8 @@ void DecisionForm::showWhatIsPossible() {
 void DecisionForm::showReading() {
   QStringList parts;
   for (const QString& reason : {refusal_, obstacle_})
-    if (!reason.isEmpty() && !parts.contains(QStringLiteral("⚠ %1").arg(reason.toHtmlEscaped())))
-      parts << QStringLiteral("⚠ %1").arg(reason.toHtmlEscaped());
+    if (!reason.isEmpty()) parts << QStringLiteral("⚠ %1").arg(reason.toHtmlEscaped());
+  parts.removeDuplicates();
   if (controller_.awaitsConvergenceTest() && nextStep() == Act::kValidate)
     parts << tr("○ No convergence test: a competing pose is not excluded.");
   for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);

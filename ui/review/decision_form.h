@@ -26,7 +26,7 @@ class DecisionForm : public QWidget {
   /// Id of the undecided case to show after the shown one, or empty.
   using Next = std::function<QString()>;
 
-  explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
+  explicit DecisionForm(ReviewController& controller);
 
   /// The shown reason why the next step is not possible.
   const QString& obstacle() const { return obstacle_; }
@@ -58,10 +58,8 @@ class DecisionForm : public QWidget {
   void decide(Act act, bool then_next);
   void endQuestion();
   void followCase();
-  bool isDecided() const;
   void showWhatIsPossible();
   void showReading();
-  QString nextCase() const { return next_ ? next_() : QString(); }
   Act nextStep() const;
 
   ReviewController& controller_;

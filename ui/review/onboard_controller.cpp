@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/onboard_controller.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -12,14 +13,13 @@
 namespace boresight::ui {
 namespace {
 
-QString reviewKey() { return QStringLiteral("onboard record"); }
-QString compareKey() { return QStringLiteral("compare with onboard record"); }
+const QString kReviewKey = QStringLiteral("onboard record");
+const QString kCompareKey = QStringLiteral("compare with onboard record");
 
 }  // namespace
 
-OnboardController::OnboardController(Document& document, ViewState& state, TaskRunner& tasks,
-                                     QObject* parent)
-    : QObject(parent), document_(document), state_(state), tasks_(tasks) {
+OnboardController::OnboardController(Document& document, ViewState& state, TaskRunner& tasks)
+    : document_(document), state_(state), tasks_(tasks) {
   state_.onChange(ViewChange::kCase, this, &OnboardController::caseChanged);
   state_.onChange(ViewChange::kSnapshot, this, &OnboardController::snapshotChanged);
 }
@@ -45,10 +45,10 @@ void OnboardController::caseChanged() {
   readAgain();
 }
 
-/// Whatever of the case was edited: what is shown is made of all of it.
+/// Reads the record after any edit of the case, since the replay depends on all of its inputs.
 void OnboardController::readAgain() {
   const ViewState::CasePtr loaded_case = state_.currentCase();
-  tasks_.cancel(compareKey());
+  tasks_.cancel(kCompareKey);
   comparison_.reset();
   const auto attached = loaded_case ? loaded_case->source.onboard_record : std::nullopt;
   const bool another = read_ != attached;
@@ -59,12 +59,9 @@ void OnboardController::readAgain() {
     if (showsOnboard()) showGround();
   }
   Q_EMIT changed();
-  if (!attached) {
-    tasks_.cancel(reviewKey());
-    return;
-  }
+  if (!attached) return tasks_.cancel(kReviewKey);
   tasks_.start(
-      reviewKey(),
+      kReviewKey,
       [loaded_case, file = *attached](const std::stop_token& stop) -> ReviewPtr {
         return sessions::reviewRecord(file.file, file.sha256, loaded_case->problem(), stop);
       },
@@ -77,12 +74,10 @@ void OnboardController::takeReview(const ViewState::CasePtr& loaded_case, Review
   if (loaded_case != state_.currentCase()) return;
   review_ = std::move(review);
   problem_ = problem;
-  if (showsOnboard()) {
-    if (review_)
-      state_.setSnapshot(review_->replay);
-    else
-      showGround();
-  }
+  if (showsOnboard() && review_)
+    state_.setSnapshot(review_->replay);
+  else if (showsOnboard())
+    showGround();
   Q_EMIT changed();
   compareAgain();
 }
@@ -97,15 +92,14 @@ void OnboardController::snapshotChanged() {
   Q_EMIT changed();
 }
 
-/// A run that is noted says so by the hash of its inputs; one that has just ended was made with the
-/// case as it was then.
+/// Compares hashes of the inputs: that of a stored run, or of the case when the run was taken.
 bool OnboardController::groundIsOfTheCase() const {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   if (!loaded_case || !ground_) return false;
   const std::string inputs = sessions::inputsDigest(loaded_case->source);
-  for (const sessions::RunRecord& run : document_.session().runs)
-    if (run.case_id == loaded_case->source.id && run.digest == ground_->digest)
-      return run.inputs_sha256 == inputs;
+  if (const sessions::RunRecord* stored =
+          sessions::findRun(document_.session(), loaded_case->source.id, ground_->digest))
+    return stored->inputs_sha256 == inputs;
   return ground_case_ && sessions::inputsDigest(ground_case_->source) == inputs;
 }
 
@@ -119,11 +113,11 @@ QString OnboardController::whyNotCompared() const {
 }
 
 void OnboardController::compareAgain() {
-  tasks_.cancel(compareKey());
+  tasks_.cancel(kCompareKey);
   comparison_.reset();
   if (!review_ || !ground_ || !ground_->finished || !groundIsOfTheCase()) return;
   tasks_.start(
-      compareKey(),
+      kCompareKey,
       [review = review_, run = ground_, one = state_.currentCase()](const std::stop_token&) {
         return std::make_shared<const sessions::RecordComparison>(
             sessions::compareWithGround(*review, *run, one->problem()));
@@ -136,10 +130,7 @@ void OnboardController::compareAgain() {
 
 void OnboardController::attachAs(std::optional<sessions::InputFile> record, const QString& text) {
   const sessions::SessionCase* session_case = shownCase(document_, state_);
-  if (!session_case) {
-    Q_EMIT failed(tr("Open the case that the record belongs to first."));
-    return;
-  }
+  if (!session_case) return Q_EMIT failed(tr("Open the case that the record belongs to first."));
   sessions::SessionCase next = *session_case;
   next.onboard_record = std::move(record);
   document_.edit(sessions::withCase(document_.session(), std::move(next)),
@@ -175,10 +166,8 @@ void OnboardController::showGround() {
 
 void OnboardController::rerun() {
   if (!review_) return;
-  if (!review_->plan.has_options) {
-    Q_EMIT failed(tr("The record has no options, so that its run cannot be repeated."));
-    return;
-  }
+  if (!review_->plan.has_options)
+    return Q_EMIT failed(tr("The record has no options, so that its run cannot be repeated."));
   Q_EMIT rerunRequested(review_->plan.plan);
 }
 
@@ -188,12 +177,11 @@ void OnboardController::goToFirstDifference() {
   if (first.iteration < 0) return;
   if (!state_.snapshot()) showOnboard();
   const auto& iterations = state_.snapshot()->iterations;
-  for (std::size_t i = 0; i < iterations.size(); ++i) {
-    if (iterations[i]->index != first.iteration) continue;
-    state_.setCursor({static_cast<int>(i), Stage::kFinished});
-    if (first.template_index >= 0) state_.selectTemplate(first.template_index);
-    return;
-  }
+  const auto found = std::ranges::find(iterations, first.iteration,
+                                       [](const auto& iteration) { return iteration->index; });
+  if (found == iterations.end()) return;
+  state_.setCursor({static_cast<int>(found - iterations.begin()), Stage::kFinished});
+  if (first.template_index >= 0) state_.selectTemplate(first.template_index);
 }
 
 }  // namespace boresight::ui

@@ -27,8 +27,7 @@ class OnboardController : public QObject {
   using ReviewPtr = std::shared_ptr<const sessions::OnboardReview>;
   using ComparisonPtr = std::shared_ptr<const sessions::RecordComparison>;
 
-  OnboardController(Document& document, ViewState& state, TaskRunner& tasks,
-                    QObject* parent = nullptr);
+  OnboardController(Document& document, ViewState& state, TaskRunner& tasks);
 
   /// The file that is attached to the current case, or empty.
   std::filesystem::path file() const;

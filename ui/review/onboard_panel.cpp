@@ -3,7 +3,7 @@
 
 #include <QtWidgets>
 
-#include "ui/models/text.h"
+#include "ui/models/rows_model.h"
 #include "ui/run/run_controller.h"
 #include "ui/widgets/widgets.h"
 
@@ -30,16 +30,13 @@ QString signOf(const sessions::RecordComparison& comparison) {
 
 }  // namespace
 
-OnboardPanel::OnboardPanel(OnboardController& onboard, ViewState& state, RunController& run,
-                           QWidget* parent)
-    : QWidget(parent), onboard_(onboard), state_(state), run_(run) {
+OnboardPanel::OnboardPanel(OnboardController& onboard, ViewState& state, RunController& run)
+    : onboard_(onboard), state_(state), run_(run) {
   ui_.setupUi(this);
   ui_.halves->setStretchFactor(0, 2);
   ui_.halves->setStretchFactor(1, 3);
   styleTable(*ui_.comparison);
-  QFont bold = font();
-  bold.setBold(true);
-  ui_.verdict->setFont(bold);
+  ui_.verdict->setFont(boldFont(font()));
   connect(ui_.showOnboard, &QPushButton::clicked, &onboard_, &OnboardController::showOnboard);
   connect(ui_.showGround, &QPushButton::clicked, &onboard_, &OnboardController::showGround);
   connect(ui_.rerunOnGround, &QPushButton::clicked, &onboard_, &OnboardController::rerun);
@@ -72,14 +69,14 @@ void OnboardPanel::updateButtons() {
   ui_.rerunOnGround->setEnabled(has && idle && onboard_.review()->plan.has_options);
   ui_.loadRecord->setEnabled(state_.currentCase() != nullptr);
   ui_.removeRecord->setEnabled(!onboard_.file().empty());
+  using Tone = Banner::Tone;
   if (onboard)
     ui_.shownRun->setMessage(QStringLiteral("▲"), tr("ONBOARD run in every view, replayed"),
-                             Banner::Tone::kBad);
+                             Tone::kBad);
   else if (state_.snapshot())
-    ui_.shownRun->setMessage(QStringLiteral("▼"), tr("Ground run in every view"),
-                             Banner::Tone::kPlain);
+    ui_.shownRun->setMessage(QStringLiteral("▼"), tr("Ground run in every view"), Tone::kPlain);
   else
-    ui_.shownRun->setMessage({}, tr("No run is shown."), Banner::Tone::kPlain);
+    ui_.shownRun->setMessage({}, tr("No run is shown."), Tone::kPlain);
 }
 
 void OnboardPanel::showRecord() {
@@ -98,13 +95,10 @@ void OnboardPanel::showRecord() {
                                                           : onboard_.problem().toHtmlEscaped());
     return;
   }
-  QVector<QStringList> rows;
-  const auto line = [&rows](const QString& label, const QString& value) {
-    rows.append({label.toHtmlEscaped(), value.toHtmlEscaped()});
-  };
-  line(tr("File"), QString::fromStdString(file.filename().string()));
+  QVector<QStringList> rows = {{tr("File"), fromText(file.filename().string()).toHtmlEscaped()}};
   for (const auto& [label, value] : sessions::recordSheet(onboard_.review()->record))
-    line(fromText(label), fromText(value).replace(QLatin1Char('_'), QLatin1Char(' ')));
+    rows.append({fromText(label).toHtmlEscaped(),
+                 fromText(value).replace(QLatin1Char('_'), QLatin1Char(' ')).toHtmlEscaped()});
   ui_.recordSheet->setText(htmlTable(rows));
   QString whole = QString::fromStdString(file.string());
   if (const auto& end = onboard_.review()->record.end)
@@ -148,13 +142,11 @@ void OnboardPanel::showTable(const sessions::RecordComparison* comparison) {
   ui_.comparison->setVisible(comparison != nullptr);
   ui_.comparison->setRowCount(0);
   if (comparison == nullptr) return;
-  for (const IterationComparison& iteration_comparison : comparison->iterations)
+  for (const IterationComparison& each : comparison->iterations)
     addRow(*ui_.comparison,
-           {QString::number(iteration_comparison.index + 1),
-            shareText(iteration_comparison.found_alike, iteration_comparison.templates),
-            shareText(iteration_comparison.inliers_both, iteration_comparison.inliers_either),
-            numberText(iteration_comparison.translation_mm, 4),
-            numberText(iteration_comparison.rotation_mrad, 4)});
+           {QString::number(each.index + 1), shareText(each.found_alike, each.templates),
+            shareText(each.inliers_both, each.inliers_either), numberText(each.translation_mm, 4),
+            numberText(each.rotation_mrad, 4)});
   const QString sigmas = comparison->pose_sigmas
                              ? tr("%1 sigmas").arg(numberText(*comparison->pose_sigmas, 2))
                              : QStringLiteral("–");

@@ -20,8 +20,7 @@ class OnboardPanel : public QWidget {
   Q_OBJECT
 
  public:
-  OnboardPanel(OnboardController& onboard, ViewState& state, RunController& run,
-               QWidget* parent = nullptr);
+  OnboardPanel(OnboardController& onboard, ViewState& state, RunController& run);
 
  private:
   void update();

@@ -78,24 +78,21 @@ bool PoseExport::isValidated(const std::string& case_id) const {
 }
 
 QString PoseExport::poseFileName() const {
-  return caseFileName() + (isValidated(caseId()) ? QStringLiteral("_validated_pose.json")
-                                                 : QStringLiteral("_pose_NOT_VALIDATED.json"));
+  return caseFileName("_validated_pose.json", "_pose_NOT_VALIDATED.json");
 }
 
 QString PoseExport::reportFileName() const {
-  return caseFileName() + (isValidated(caseId())
-                               ? QStringLiteral("_pose_report.pdf")
-                               : QStringLiteral("_pose_report_NOT_VALIDATED.pdf"));
+  return caseFileName("_pose_report.pdf", "_pose_report_NOT_VALIDATED.pdf");
 }
 
-QString PoseExport::caseFileName() const {
-  return fromText(caseId()).replace(QLatin1Char('/'), QLatin1Char('_'));
+QString PoseExport::caseFileName(const char* validated, const char* not_validated) const {
+  return fromText(caseId()).replace(QLatin1Char('/'), QLatin1Char('_')) +
+         QLatin1String(isValidated(caseId()) ? validated : not_validated);
 }
 
 QString PoseExport::bopResultsFileName() const {
-  const auto& cases = document_.session().cases;
-  const bool all = std::all_of(cases.begin(), cases.end(),
-                               [this](const auto& item) { return isValidated(item->id); });
+  const bool all = std::ranges::all_of(document_.session().cases,
+                                       [this](const auto& item) { return isValidated(item->id); });
   return all ? QStringLiteral("boresight_results.csv")
              : QStringLiteral("boresight_%1_results.csv")
                    .arg(QLatin1String(sessions::kNotValidatedName));

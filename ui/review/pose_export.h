@@ -71,7 +71,7 @@ class PoseExport : public QObject {
   void askForColmap();
   std::string caseId() const { return shownCaseId(document_, state_); }
   bool isValidated(const std::string& case_id) const;
-  QString caseFileName() const;
+  QString caseFileName(const char* validated, const char* not_validated) const;
   template <class Write>
   void exportOne(const std::filesystem::path& file, const QString& note, Write write);
   template <class Write>

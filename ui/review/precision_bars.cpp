@@ -3,14 +3,13 @@
 
 #include <utility>
 
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QVBoxLayout>
+
+#include "ui_precision_row.h"
 
 #include "ui/models/text.h"
 #include "ui/review/check_cards.h"
 #include "ui/style/tokens.h"
-#include "ui/widgets/limit_bar.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
@@ -23,18 +22,11 @@ bool isPrecision(const sessions::Check& check) {
 QWidget* precisionRow(const sessions::Check& check) {
   auto* row = new QWidget;
   row->setToolTip(fromText(check.sentence));
-  auto* bar = new LimitBar;
-  bar->setFixedHeight(bar->sizeHint().height());
-  bar->setFigure(*check.figure, *check.limit, check.state == sessions::CheckState::kPassed);
-  auto* head = new QHBoxLayout;
-  head->setSpacing(kBlockGap);
-  head->addWidget(new QLabel(fromText(check.title)), 1);
-  head->addWidget(named(new QLabel(foundAndLimit(check)), "precisionFigure"));
-  auto* column = new QVBoxLayout(row);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(kBlockGap / 2);
-  column->addLayout(head);
-  column->addWidget(bar);
+  Ui::PrecisionRow ui;
+  ui.setupUi(row);
+  ui.title->setText(fromText(check.title));
+  ui.precisionFigure->setText(foundAndLimit(check));
+  ui.bar->setFigure(*check.figure, *check.limit, check.state == sessions::CheckState::kPassed);
   return row;
 }
 
@@ -51,10 +43,7 @@ void PrecisionBars::setChecks(const std::vector<sessions::Check>& checks) {
   for (const sessions::Check& check : checks)
     if (isPrecision(check)) shown.push_back(check);
   if (std::exchange(shown_, shown) != shown_) {
-    while (QLayoutItem* item = rows_->takeAt(0)) {
-      delete item->widget();
-      delete item;
-    }
+    clearLayout(*rows_);
     for (const sessions::Check& check : shown_) rows_->addWidget(precisionRow(check));
   }
   setVisible(!shown_.empty());

@@ -22,9 +22,8 @@ bool isOfTheCase(const sessions::LocalizationTrace& run, const Document& documen
 
 }  // namespace
 
-QualityController::QualityController(Document& document, ViewState& state, TaskRunner& tasks,
-                                     QObject* parent)
-    : QObject(parent), document_(document), state_(state), tasks_(tasks) {
+QualityController::QualityController(Document& document, ViewState& state, TaskRunner& tasks)
+    : document_(document), state_(state), tasks_(tasks) {
   connect(&document_, &Document::changed, this, &QualityController::follow);
   state_.onChange(ViewChange::kCase | ViewChange::kSnapshot, this, &QualityController::follow);
   follow();

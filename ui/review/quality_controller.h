@@ -19,8 +19,7 @@ class QualityController : public QObject {
   Q_OBJECT
 
  public:
-  QualityController(Document& document, ViewState& state, TaskRunner& tasks,
-                    QObject* parent = nullptr);
+  QualityController(Document& document, ViewState& state, TaskRunner& tasks);
 
   /// Empty for a run that did not converge, and during the measurement.
   const std::optional<sessions::PoseQuality>& quality() const { return quality_; }

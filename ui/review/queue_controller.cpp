@@ -2,12 +2,14 @@
 #include "ui/review/queue_controller.h"
 
 #include <exception>
+#include <vector>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/review/thumbnail.h"
 #include "sessions/session/case_run.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 
@@ -24,15 +26,16 @@ QImage toImage(const sessions::ColorImage& picture) {
 /// The last run's pose if it has one, else the seed in its own colour.
 QImage pictureOf(const sessions::LoadedCase& loaded, const QueueRow& row, const QSize& size_px) {
   const bool converged = row.subject && row.subject->run->converged();
-  if (!converged && !loaded.source.has_seed)
-    return toImage(sessions::stationPicture(loaded.image.view(), loaded.source.camera,
-                                            loaded.scene.view(), {}, {}, size_px.width(),
-                                            size_px.height()));
-  return toImage(sessions::poseThumbnail(
-      loaded.image.view(), loaded.source.camera, loaded.scene.view(),
-      converged ? row.subject->camera_from_station : loaded.source.camera_from_station_seed,
-      size_px.width(), size_px.height(),
-      converged ? sessions::kResultColor : sessions::kSeedColor));
+  std::vector<sessions::OverlayLayer> layers;
+  if (converged)
+    layers.push_back({"", row.subject->camera_from_station, sessions::kResultColor, true});
+  else if (loaded.source.has_seed)
+    layers.push_back({"", loaded.source.camera_from_station_seed, sessions::kSeedColor, true});
+  std::vector<Pose> framed;
+  for (const sessions::OverlayLayer& layer : layers) framed.push_back(layer.camera_from_station);
+  return toImage(sessions::stationPicture(loaded.image.view(), loaded.source.camera,
+                                          loaded.scene.view(), framed, layers, size_px.width(),
+                                          size_px.height()));
 }
 
 /// The row of a case from the session alone.
@@ -81,9 +84,8 @@ DifferenceEntry comparedEntry(const sessions::Session& session, const std::strin
 
 }  // namespace
 
-QueueController::QueueController(Document& document, const QSize& thumbnail_px, QObject* parent)
-    : QObject(parent),
-      document_(document),
+QueueController::QueueController(Document& document, const QSize& thumbnail_px)
+    : document_(document),
       rows_(
           [thumbnail_px](const sessions::Session& session, const std::string& id) {
             return checkedEntry(session, id, thumbnail_px);
@@ -93,8 +95,7 @@ QueueController::QueueController(Document& document, const QSize& thumbnail_px, 
   rows_.setOrder([this](const Rows::Entry& a, const Rows::Entry& b) {
     return sessions::moreTrouble(rowOf(a), rowOf(b));
   });
-  connect(&document_, &Document::opened, this, &QueueController::follow);
-  connect(&document_, &Document::changed, this, &QueueController::follow);
+  connectEach(document_, this, &QueueController::follow, &Document::opened, &Document::changed);
 }
 
 void QueueController::setLookedAt(List list) {
@@ -103,8 +104,12 @@ void QueueController::setLookedAt(List list) {
   rows_.setActive(false);
   differences_.setActive(false);
   follow();  // before anything is made of what was looked at last
-  rows_.setActive(list == List::kTrouble);
-  differences_.setActive(list == List::kDifferences);
+  fillVisible();
+}
+
+void QueueController::fillVisible() {
+  rows_.setActive(looked_at_ == List::kTrouble && !halted_);
+  differences_.setActive(looked_at_ == List::kDifferences && !halted_);
 }
 
 void QueueController::follow() {
@@ -130,21 +135,17 @@ QueueRow QueueController::rowOf(const Rows::Entry& entry) const {
 }
 
 std::vector<QueueEntry> QueueController::queue() const {
-  std::vector<QueueEntry> queue_entries;
+  std::vector<QueueEntry> queue;
   for (const Rows::Entry& entry : rows_.entries())
-    queue_entries.push_back(
-        {rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
-  return queue_entries;
+    queue.push_back({rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
+  return queue;
 }
 
 std::vector<DifferenceEntry> QueueController::differences() const {
-  std::vector<DifferenceEntry> difference_entries;
-  for (const Differences::Entry& entry : differences_.entries()) {
-    DifferenceEntry& difference_entry =
-        difference_entries.emplace_back(entry.value.value_or(DifferenceEntry{entry.id}));
-    difference_entry.current = entry.current;
-  }
-  return difference_entries;
+  std::vector<DifferenceEntry> differences;
+  for (const Differences::Entry& entry : differences_.entries())
+    differences.push_back(entry.value.value_or(DifferenceEntry{entry.id}));
+  return differences;
 }
 
 int QueueController::doneCount() const {
@@ -160,8 +161,8 @@ bool QueueController::isBusy() const { return rows_.isBusy() || differences_.isB
 
 void QueueController::setHalted(bool halted) {
   halted_ = halted;
-  rows_.setHalted(halted);
-  differences_.setHalted(halted);
+  fillVisible();
+  Q_EMIT changed();
 }
 
 }  // namespace boresight::ui

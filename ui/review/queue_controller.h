@@ -60,25 +60,16 @@ class CaseByCase {
     changed_();
   }
 
-  /// No value is computed while inactive (not visible) or halted.
+  /// No value is computed while inactive (not visible, or halted).
   void setActive(bool active) {
     active_ = active;
     goOn();
-  }
-  void setHalted(bool halted) {
-    halted_ = halted;
-    goOn();
-    changed_();
   }
   bool isBusy() const { return making_; }
   /// Order in which waiting values are computed; without it the order is that of the keys.
   void setOrder(Before before) { before_ = std::move(before); }
 
   const std::vector<Entry>& entries() const { return entries_; }
-  Entry* find(const std::string& id) {
-    const auto found = std::ranges::find(entries_, id, &Entry::id);
-    return found == entries_.end() ? nullptr : &*found;
-  }
   int currentCount() const {
     return static_cast<int>(std::ranges::count(entries_, true, &Entry::current));
   }
@@ -92,7 +83,7 @@ class CaseByCase {
   }
 
   void goOn() {
-    Entry* entry = active_ && !halted_ && !making_ ? next() : nullptr;
+    Entry* entry = active_ && !making_ ? next() : nullptr;
     if (!entry) return;
     making_ = true;
     runner_.start(
@@ -106,8 +97,8 @@ class CaseByCase {
   /// Drops a value whose key has changed.
   void take(const std::string& id, const std::string& key, Value value) {
     making_ = false;
-    Entry* entry = find(id);
-    if (entry && entry->key == key) {
+    const auto entry = std::ranges::find(entries_, id, &Entry::id);
+    if (entry != entries_.end() && entry->key == key) {
       entry->value = std::move(value);
       entry->current = true;
     }
@@ -121,7 +112,6 @@ class CaseByCase {
   sessions::Session session_;
   std::vector<Entry> entries_;
   bool active_ = false;
-  bool halted_ = false;
   bool making_ = false;
   TaskRunner runner_;  ///< declared last: it ends before the members that its work uses
 };
@@ -140,7 +130,6 @@ struct DifferenceEntry {
   std::string case_id;
   std::optional<sessions::RunDifference> difference = {};
   QString problem = {};  ///< why there is none
-  bool current = false;
 };
 
 /// The queue of the document's cases, and the differences between their last two runs: both filled
@@ -152,7 +141,7 @@ class QueueController : public QObject {
   enum class List { kNone, kTrouble, kDifferences };
 
   /// `thumbnail_px`: largest size of the pictures, in device pixels.
-  QueueController(Document& document, const QSize& thumbnail_px, QObject* parent = nullptr);
+  QueueController(Document& document, const QSize& thumbnail_px);
 
   /// Sets the list that is visible; the other one is not filled.
   void setLookedAt(List list);
@@ -178,6 +167,7 @@ class QueueController : public QObject {
   using Differences = CaseByCase<DifferenceEntry>;
 
   void follow();
+  void fillVisible();
   sessions::QueueRow rowOf(const Rows::Entry& entry) const;
 
   Document& document_;

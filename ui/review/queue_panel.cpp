@@ -2,13 +2,14 @@
 #include "ui/review/queue_panel.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <utility>
 
 #include <QIcon>
 #include <QPixmap>
 #include <QtWidgets>
 
+#include "sessions/text/units.h"
 #include "ui/models/text.h"
 #include "ui/panels/case/cases_panel.h"
 #include "ui/style/icons.h"
@@ -16,6 +17,7 @@
 
 namespace boresight::ui {
 
+using sessions::kUnknown;
 using sessions::QueueGroup;
 using sessions::QueueRow;
 using sessions::RunChange;
@@ -27,10 +29,6 @@ QString signOf(RunChange change) {
   return change == RunChange::kBetter  ? DifferencesModel::tr("▲ better")
          : change == RunChange::kWorse ? DifferencesModel::tr("▼ worse")
                                        : DifferencesModel::tr("= same");
-}
-
-QString beforeAndNow(int before, int after) {
-  return QStringLiteral("%1 → %2").arg(before).arg(after);
 }
 
 QString apartText(const RunDifference& run_difference) {
@@ -50,6 +48,18 @@ auto ofDifference(Value value) {
   };
 }
 
+/// A figure of both runs, and its sort key.
+auto bothRuns(int sessions::RunSide::*figure) {
+  return ofDifference([figure](Difference difference) {
+    return QStringLiteral("%1 → %2").arg(difference.before.*figure).arg(difference.after.*figure);
+  });
+}
+auto increase(int sessions::RunSide::*figure) {
+  return ofDifference([figure](Difference difference) {
+    return difference.after.*figure - difference.before.*figure;
+  });
+}
+
 /// Sorted with the worse ones first when it ascends.
 std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
   constexpr auto tr = [](const char* text) { return DifferencesModel::tr(text); };
@@ -66,19 +76,9 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
                                                           : 2;
        })},
       {tr("Failed checks"), tr("Number of failed checks: before and after."), 0,
-       ofDifference([](Difference difference) {
-         return beforeAndNow(difference.before.checks_failed, difference.after.checks_failed);
-       }),
-       ofDifference([](Difference difference) {
-         return difference.after.checks_failed - difference.before.checks_failed;
-       })},
+       bothRuns(&sessions::RunSide::checks_failed), increase(&sessions::RunSide::checks_failed)},
       {tr("Inliers"), tr("Inliers of the last matching iteration: before and after."), 0,
-       ofDifference([](Difference difference) {
-         return beforeAndNow(difference.before.inliers, difference.after.inliers);
-       }),
-       ofDifference([](Difference difference) {
-         return difference.after.inliers - difference.before.inliers;
-       })},
+       bothRuns(&sessions::RunSide::inliers), increase(&sessions::RunSide::inliers)},
       {tr("Poses apart"), tr("Distance of the two results at the camera, in mm and mrad."), 0,
        ofDifference(apartText),
        ofDifference([](Difference difference) { return difference.comparison.translation_mm; })},
@@ -99,23 +99,9 @@ QString tableHtml(const RunDifference& run_difference) {
                                .arg(fromText(sessions::changeText(run_difference)).toHtmlEscaped());
 }
 
-}  // namespace
-
-DifferencesModel::DifferencesModel(QObject* parent) : RowsModel(differenceColumns(), parent) {}
-
-QVariant DifferencesModel::look(const DifferenceEntry& entry, int column, int role) const {
-  const bool tip = role == Qt::ToolTipRole;
-  if (entry.difference) return tip ? tableHtml(*entry.difference) : QVariant();
-  if (!tip && (role != Qt::DisplayRole || column != kWhy)) return {};
-  return entry.problem.isEmpty() ? tr("… being compared") : entry.problem;
-}
-
-namespace {
-
 constexpr double kToPercent = 100.0;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Whether what the row says of its checks is of the document as it is.
+/// States that the row's checks are not of the document's current state; empty when they are.
 QString remarkOf(const QueueEntry& entry) {
   if (entry.checked) return {};
   return entry.row.checks.empty() ? QueueModel::tr("… being checked")
@@ -168,69 +154,22 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
       {tr("Margin,\n%"),
        tr("Margin of the worst check to its limit, in percent of the limit; negative: limit "
           "exceeded."),
-       0, [](Entry entry) { return kToPercent * entry.row.margin.value_or(kNaN); }},
+       0, [](Entry entry) { return kToPercent * entry.row.margin.value_or(kUnknown); }},
       {tr("From\nseed"),
        tr("Distance of the result from the seed, in mm and mrad, and relative to the seed's "
           "uncertainty (100 %: on its border)."),
        0, [](Entry entry) { return fromSeedText(entry.row); },
-       [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kNaN; }},
+       [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kUnknown; }},
       {tr("Inliers"), tr("Inliers of the last matching iteration."), 0,
-       [](Entry entry) { return entry.row.iterations > 0 ? entry.row.inliers : kNaN; }},
+       [](Entry entry) { return entry.row.iterations > 0 ? entry.row.inliers : kUnknown; }},
   };
 }
 
-}  // namespace
-
-QueueModel::QueueModel(QObject* parent) : RowsModel(queueColumns(), parent) {}
-
-int QueueModel::rowOf(const QString& id) const {
-  return firstRow(
-      [wanted = id.toStdString()](const QueueEntry& entry) { return entry.row.case_id == wanted; });
-}
-
-QString QueueModel::reviewStatusText(const QueueRow& row) {
-  const QString state = row.group == QueueGroup::kAwaits
-                            ? tr("☆ to be approved")
-                            : CasesModel::stateText(caseStateOf(row.review_state));
-  return row.outdated ? tr("%1, outdated").arg(state) : state;
-}
-
-QVariant QueueModel::look(const QueueEntry& entry, int column, int role) const {
-  if (role == Qt::ToolTipRole) return tooltipOf(entry, column);
-  if (role != Qt::DecorationRole || column != kCase || entry.thumbnail.isNull()) return {};
-  return pictureIcon(entry.thumbnail);
-}
-
-QueueFilter::QueueFilter(QueueModel& model, QObject* parent) : RowsFilter(parent), model_(model) {
-  setSourceModel(&model);
-}
-
-void QueueFilter::setText(const QString& text) {
-  setCondition([this, words = text.trimmed()](int row) {
-    for (const int column : {QueueModel::kCase, QueueModel::kStatus, QueueModel::kTrouble})
-      if (model_.index(row, column).data().toString().contains(words, Qt::CaseInsensitive))
-        return true;
-    return false;
-  });
-}
-
-bool QueueFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
-  if (left.column() != QueueModel::kTrouble) return RowsFilter::lessThan(left, right);
-  return sessions::moreTrouble(model_.at(left.row()).row, model_.at(right.row()).row);
-}
-
-namespace {
-
 constexpr QSize kQueueThumbnail_px{76, 57};  // of a screen without scaling
 constexpr int kUsualQueueName = 18;          // letters
-constexpr int kLeastWidth_px = 280;          // of whole names and states
 constexpr int kAllColumns_px = 560;          // width from which all columns fit
 constexpr int kTroubleTab = 0;
 constexpr int kDifferencesTab = 1;
-
-}  // namespace
-
-namespace {
 
 /// In a narrow list a case has its state and its trouble below its name.
 class CaseWithTrouble final : public QStyledItemDelegate {
@@ -251,12 +190,45 @@ class CaseWithTrouble final : public QStyledItemDelegate {
 
 }  // namespace
 
-QueuePanel::QueuePanel(Document& document, QWidget* parent)
-    : QWidget(parent),
-      controller_(document, kQueueThumbnail_px * devicePixelRatioF()),
-      filter_(model_) {
+DifferencesModel::DifferencesModel() : RowsModel(differenceColumns()) {}
+
+QVariant DifferencesModel::look(const DifferenceEntry& entry, int column, int role) const {
+  const bool tip = role == Qt::ToolTipRole;
+  if (entry.difference) return tip ? tableHtml(*entry.difference) : QVariant();
+  if (!tip && (role != Qt::DisplayRole || column != kWhy)) return {};
+  return entry.problem.isEmpty() ? tr("… being compared") : entry.problem;
+}
+
+QueueModel::QueueModel() : RowsModel(queueColumns()) {}
+
+int QueueModel::rowOf(const QString& id) const {
+  return firstRow(
+      [wanted = id.toStdString()](const QueueEntry& entry) { return entry.row.case_id == wanted; });
+}
+
+QString QueueModel::reviewStatusText(const QueueRow& row) {
+  const QString state = row.group == QueueGroup::kAwaits
+                            ? tr("☆ to be approved")
+                            : CasesModel::stateText(caseStateOf(row.review_state));
+  return row.outdated ? tr("%1, outdated").arg(state) : state;
+}
+
+QVariant QueueModel::look(const QueueEntry& entry, int column, int role) const {
+  if (role == Qt::ToolTipRole) return tooltipOf(entry, column);
+  if (role != Qt::DecorationRole || column != kCase || entry.thumbnail.isNull()) return {};
+  return pictureIcon(entry.thumbnail);
+}
+
+QueueFilter::QueueFilter(QueueModel& model) : model_(model) { setSourceModel(&model); }
+
+bool QueueFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
+  if (left.column() != QueueModel::kTrouble) return RowsFilter::lessThan(left, right);
+  return sessions::moreTrouble(model_.at(left.row()).row, model_.at(right.row()).row);
+}
+
+QueuePanel::QueuePanel(Document& document)
+    : controller_(document, kQueueThumbnail_px * devicePixelRatioF()), filter_(model_) {
   ui_.setupUi(this);
-  setMinimumWidth(kLeastWidth_px);
   ui_.queueTabs->addTab(tr("Worst first"));
   ui_.queueTabs->addTab(tr("Last two runs"));
   ui_.queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the worst first"));
@@ -266,7 +238,13 @@ QueuePanel::QueuePanel(Document& document, QWidget* parent)
   connect(ui_.queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
   connect(ui_.queueFilter, &QLineEdit::textChanged, this, [this](const QString& text) {
     const QScopedValueRollback following(following_, true);
-    filter_.setText(text);
+    filter_.setCondition([this, words = text.trimmed()](int row) {
+      constexpr std::array kSearched = {QueueModel::kCase, QueueModel::kStatus,
+                                        QueueModel::kTrouble};
+      return std::ranges::any_of(kSearched, [&](int column) {
+        return model_.index(row, column).data().toString().contains(words, Qt::CaseInsensitive);
+      });
+    });
     differences_filter_.setFilterFixedString(text.trimmed());
     chooseShown();
   });
@@ -323,10 +301,10 @@ void QueuePanel::showDifferences(bool shown) {
 
 void QueuePanel::lookAt() {
   ui_.lists->setCurrentWidget(table());
-  const bool differences = table() == ui_.differences;
-  controller_.setLookedAt(!in_sight_    ? QueueController::List::kNone
-                          : differences ? QueueController::List::kDifferences
-                                        : QueueController::List::kTrouble);
+  using List = QueueController::List;
+  controller_.setLookedAt(!in_sight_             ? List::kNone
+                          : table() == ui_.queue ? List::kTrouble
+                                                 : List::kDifferences);
   showEntries();
 }
 
@@ -371,10 +349,6 @@ void QueuePanel::fitColumns() {
 
 void QueuePanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  showColumns();
-}
-
-void QueuePanel::showColumns() {
   const bool narrow = width() < kAllColumns_px;
   for (const int column : {QueueModel::kStatus, QueueModel::kTrouble, QueueModel::kMargin,
                            QueueModel::kFromSeed, QueueModel::kInliers})
@@ -398,10 +372,8 @@ void QueuePanel::showProgress() {
 void QueuePanel::openChosen() {
   const QString id = chosenCase();
   if (id.isEmpty()) return;
-  const int row = model_.rowOf(id);
-  const sessions::QueueRow none;
-  const sessions::QueueRow& found = row < 0 ? none : model_.at(row).row;
-  Q_EMIT openRequested(id, fromText(found.run_digest), found.opens_at);
+  const QueueRow& chosen = model_.at(model_.rowOf(id)).row;
+  Q_EMIT openRequested(id, fromText(chosen.run_digest), chosen.opens_at);
 }
 
 void QueuePanel::next() { step(1); }
@@ -414,7 +386,7 @@ void QueuePanel::step(int rows) {
   table()->setCurrentIndex(table()->model()->index(row, 0));
 }
 
-/// What the operator chooses is shown; the window answers with `setCurrent`.
+/// Requests the case that the operator has chosen; the window answers with `setCurrent`.
 void QueuePanel::showChosen() {
   if (!following_ && chosenCase() != current_) openChosen();
 }
@@ -424,9 +396,8 @@ void QueuePanel::chooseShown() {
   const QScopedValueRollback following(following_, true);
   for (QTableView* each : {ui_.queue, ui_.differences}) {
     const QAbstractItemModel& model = *each->model();
-    QModelIndex shown;
-    for (int row = 0; row < model.rowCount() && !shown.isValid(); ++row)
-      if (model.index(row, 0).data().toString() == current_) shown = model.index(row, 0);
+    const QModelIndex shown =
+        model.match(model.index(0, 0), Qt::DisplayRole, current_, 1, Qt::MatchExactly).value(0);
     if (shown != each->currentIndex().siblingAtColumn(0) || !shown.isValid())
       each->setCurrentIndex(shown);
   }

@@ -20,7 +20,7 @@ class DifferencesModel : public RowsModel<DifferenceEntry> {
  public:
   enum Column { kCase, kChange, kChecks, kInliers, kApart, kWhy };
 
-  explicit DifferencesModel(QObject* parent = nullptr);
+  DifferencesModel();
 
  protected:
   QVariant look(const DifferenceEntry& entry, int column, int role) const override;
@@ -33,7 +33,7 @@ class QueueModel : public RowsModel<QueueEntry> {
  public:
   enum Column { kCase, kStatus, kTrouble, kMargin, kFromSeed, kInliers };
 
-  explicit QueueModel(QObject* parent = nullptr);
+  QueueModel();
 
   /// -1 when there is none.
   int rowOf(const QString& id) const;
@@ -44,15 +44,13 @@ class QueueModel : public RowsModel<QueueEntry> {
   QVariant look(const QueueEntry& entry, int column, int role) const override;
 };
 
-/// Cases whose id, state or trouble holds a text. Sorted by trouble they are in the queue's order,
-/// else in the order of the column; rows without a number come last in either direction.
+/// Cases in the queue's order when sorted by trouble, else in the order of the column; rows without
+/// a number come last in either direction.
 class QueueFilter : public RowsFilter {
   Q_OBJECT
 
  public:
-  explicit QueueFilter(QueueModel& model, QObject* parent = nullptr);
-
-  void setText(const QString& text);
+  explicit QueueFilter(QueueModel& model);
 
  protected:
   bool lessThan(const QModelIndex& left, const QModelIndex& right) const override;
@@ -68,7 +66,7 @@ class QueuePanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit QueuePanel(Document& document, QWidget* parent = nullptr);
+  explicit QueuePanel(Document& document);
 
   QueueController& controller() { return controller_; }
   /// Sets whether the operator can see the panel: Qt also calls a panel behind another one's tab
@@ -113,7 +111,6 @@ class QueuePanel : public QWidget {
   void showEntries();
   void showProgress();
   void fitColumns();
-  void showColumns();
 
   QString current_;  ///< the case that the window shows
   QueueController controller_;

@@ -2,12 +2,14 @@
 #include "ui/review/review_controller.h"
 
 #include <exception>
+#include <ranges>
 #include <stdexcept>
 #include <utility>
 
 #include "sessions/decision/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 
@@ -19,7 +21,7 @@ namespace {
 const QString kChecksKey = QStringLiteral("checks");
 const QString kConvergenceKey = QStringLiteral("convergence");
 
-/// Whether what was read is the case as the document has it; a nudge by hand is not judged.
+/// Whether the loaded case equals the document's; a nudged pose is not compared.
 bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase current) {
   current.camera_from_station_working = read.camera_from_station_working;
   return read == current;
@@ -27,10 +29,9 @@ bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase current) 
 
 }  // namespace
 
-ReviewController::ReviewController(Document& document, ViewState& state, QObject* parent)
-    : QObject(parent), document_(document), state_(state) {
-  connect(&document_, &Document::opened, this, &ReviewController::follow);
-  connect(&document_, &Document::changed, this, &ReviewController::follow);
+ReviewController::ReviewController(Document& document, ViewState& state)
+    : document_(document), state_(state) {
+  connectEach(document_, this, &ReviewController::follow, &Document::opened, &Document::changed);
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
   state_.onChange(ViewChange::kSnapshot, this, [this] {
     if (std::exchange(shows_other_run_, showsOtherRun()) != showsOtherRun())
@@ -76,7 +77,7 @@ void ReviewController::setSource(PoseSource source) {
   follow();
 }
 
-/// What the operator chose for this case, else what was decided on, else what there is.
+/// The operator's choice for this case, else the source of its decision, else an existing one.
 void ReviewController::chooseSource() {
   const std::string id = caseId();
   if (std::exchange(shown_id_, id) != id) wanted_source_.reset();
@@ -129,13 +130,13 @@ void ReviewController::follow() {
   Q_EMIT reviewStatusChanged();
 }
 
-/// What was asked and answered is no longer so. The checks stay to be seen, as stale ones, unless
-/// they are of another case.
+/// Cancels the evaluation. Its last checks stay visible as outdated ones, unless they are of
+/// another case.
 void ReviewController::drop() {
   checks_runner_.cancel(kChecksKey);
   convergence_runner_.cancel(kConvergenceKey);
   if (!problem_.isEmpty() || !subject_ || subject_->loaded->source.id != caseId()) checks_.clear();
-  convergence_.reset();
+  convergence_ = {};
   convergence_so_far_ = {};
   current_ = false;
   asked_ = false;
@@ -199,9 +200,8 @@ sessions::ReviewStatus ReviewController::reviewStatus() const {
 std::vector<const sessions::Decision*> ReviewController::history() const {
   std::vector<const sessions::Decision*> decisions;
   const std::string id = caseId();
-  const auto& all = document_.session().decisions;
-  for (auto item = all.rbegin(); item != all.rend(); ++item)
-    if (item->case_id == id) decisions.push_back(&*item);
+  for (const sessions::Decision& decision : std::views::reverse(document_.session().decisions))
+    if (decision.case_id == id) decisions.push_back(&decision);
   return decisions;
 }
 
@@ -210,8 +210,7 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
   const std::string id = caseId();
   switch (act) {
     case Act::kValidate:
-      return sessions::validated(session, *subject_, checks_, waivers(), who,
-                                 convergence_ ? convergence_->seeds : 0);
+      return sessions::validated(session, *subject_, checks_, waivers(), who, convergence_.seeds);
     case Act::kApprove:
       return sessions::approved(session, id, who);
     case Act::kReject:
@@ -223,8 +222,8 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
   throw std::logic_error("no such act");
 }
 
-/// What has been said and holds is not said again; a validation least of all, as it would put
-/// itself in the place of one that awaits its second person.
+/// A decision that holds is not repeated: a second validation would replace one that awaits its
+/// second person.
 QString ReviewController::settled(Act act) const {
   const sessions::ReviewStatus current = reviewStatus();
   if (!current.holds()) return {};
@@ -241,7 +240,7 @@ bool ReviewController::showsOtherRun() const {
   return source_ == PoseSource::kRun && run && run->digest != runDigest();
 }
 
-/// What is decided is what the operator has before their eyes.
+/// Only a pose that is shown, with its checks, can be decided on.
 QString ReviewController::unseen(Act act) const {
   const QString id = fromText(caseId());
   if (!chosen_id_.isEmpty() && chosen_id_ != id)

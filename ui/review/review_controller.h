@@ -29,7 +29,7 @@ class ReviewController : public QObject {
  public:
   enum class Act { kValidate, kApprove, kReject, kTakeBack };
 
-  ReviewController(Document& document, ViewState& state, QObject* parent = nullptr);
+  ReviewController(Document& document, ViewState& state);
 
   /// Checks are evaluated only while they are in sight, or runs are looked at.
   void setInSight(bool in_sight);
@@ -75,7 +75,7 @@ class ReviewController : public QObject {
 
   /// Whether a pose is ready to be judged and its convergence test has not been run yet.
   bool awaitsConvergenceTest() const {
-    return current_ && !convergence_ && !isConvergenceTestRunning();
+    return current_ && convergence_.seeds == 0 && !isConvergenceTestRunning();
   }
   bool isConvergenceTestRunning() const { return convergence_runner_.isBusy(); }
   /// Result so far of the test under way.
@@ -142,7 +142,7 @@ class ReviewController : public QObject {
   QString problem_;
   std::shared_ptr<const sessions::ReviewSubject> subject_;  ///< of `question_` when not nullptr
   std::vector<sessions::Check> checks_;
-  std::optional<sessions::ConvergenceResult> convergence_;
+  sessions::ConvergenceResult convergence_;  ///< without seeds: not run yet
   sessions::ConvergenceResult convergence_so_far_;
   std::map<std::string, std::map<std::string, Reason>> reasons_;  ///< by case and check
   TaskRunner checks_runner_;

@@ -20,58 +20,6 @@ namespace boresight::ui {
 using sessions::CheckState;
 using sessions::PoseSource;
 
-LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
-    : QDialog(parent), controller_(controller) {
-  ui_.setupUi(this);
-  setObjectName(QStringLiteral("limitsDialog"));
-  for (const sessions::CheckPreset& preset : sessions::checkPresets()) {
-    ui_.preset->addItem(fromText(preset.name));
-    ui_.preset->setItemData(ui_.preset->count() - 1, fromText(preset.help), Qt::ToolTipRole);
-  }
-  ui_.limitHelp->setMinimumHeight(2 * ui_.limitHelp->fontMetrics().lineSpacing());
-  connect(ui_.preset, QOverload<int>::of(&QComboBox::activated), this,
-          [this] { controller_.setPreset(ui_.preset->currentText()); });
-  connect(ui_.secondPerson, &QCheckBox::clicked, &controller_, &ReviewController::setSecondPerson);
-  connect(ui_.resetAll, &QPushButton::clicked, this, [this] {
-    if (const auto* preset = sessions::findCheckPreset(controller_.settings().preset))
-      controller_.setLimits(preset->limits);
-  });
-  connect(ui_.close, &QPushButton::clicked, this, &QDialog::close);
-  connect(&ui_.limits->options(), &OptionsModel::edited, this, &LimitsDialog::change);
-  connect(ui_.limits, &OptionsTable::helpChanged, this, [this](const QString& help) {
-    ui_.limitHelp->setText(help.isEmpty() ? tr("Select a limit to read its description.") : help);
-  });
-  connect(&controller_, &ReviewController::reviewStatusChanged, this, &LimitsDialog::showSettings);
-  showSettings();
-  resize(640, 460);
-}
-
-void LimitsDialog::change(const std::string& name, const std::string& value) {
-  const sessions::ReviewSettings& settings = controller_.settings();
-  sessions::CheckLimits changed = sessions::checkLimits(settings.preset, settings.limits);
-  try {
-    sessions::applyOptionText(changed, name, value);
-  } catch (const sessions::OptionError& error) {
-    ui_.limitHelp->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
-    return;
-  }
-  controller_.setLimits(changed);
-}
-
-void LimitsDialog::showSettings() {
-  const sessions::ReviewSettings& settings = controller_.settings();
-  const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
-  if (preset == nullptr) return;
-  ui_.limits->setOptions(
-      sessions::listOptions(sessions::checkLimits(settings.preset, settings.limits)),
-      sessions::listOptions(preset->limits));
-  ui_.preset->setCurrentText(fromText(preset->name));
-  ui_.preset->setToolTip(fromText(preset->help));
-  ui_.presetHelp->setText(fromText(preset->help));
-  ui_.secondPerson->setChecked(settings.second_person);
-  ui_.resetAll->setEnabled(!settings.limits.empty());
-}
-
 namespace {
 
 constexpr int kChecksColumns_px = 560;  // width of the panel from which all columns fit
@@ -113,37 +61,74 @@ std::vector<TableColumn<sessions::Check>> columns() {
   };
 }
 
+/// Whether a decision that was relied on no longer holds, or is outdated.
+bool isUnreliable(const sessions::ReviewStatus& status) {
+  return !status.dropped.empty() || !status.outdated.empty();
+}
+
 /// A tick next to "NOT VALIDATED" would be read as a yes: a pose that converged or was annotated,
 /// but is not validated, has an open circle here.
 QString signOf(const sessions::ReviewStatus& status) {
   using sessions::ReviewState;
-  if (!status.dropped.empty() || !status.outdated.empty()) return QStringLiteral("⚠");
+  if (isUnreliable(status)) return QStringLiteral("⚠");
   const bool open =
       status.state == ReviewState::kConverged || status.state == ReviewState::kAnnotated;
   return CasesModel::stateText(open ? CaseState::kNew : caseStateOf(status.state)).left(1);
 }
 
-/// A decision that no longer holds, or is outdated, stands out: it was relied on.
 Banner::Tone toneOf(const sessions::ReviewStatus& status) {
   using sessions::ReviewState;
   if (status.state == ReviewState::kFailed || status.state == ReviewState::kRejected ||
-      !status.dropped.empty() || !status.outdated.empty())
+      isUnreliable(status))
     return Banner::Tone::kBad;
   return status.state == ReviewState::kValidated ? Banner::Tone::kGood : Banner::Tone::kPlain;
 }
 
-/// The review status of a case; nullptr: no case is shown.
-void showStatus(const sessions::ReviewStatus* status, Banner& banner) {
-  if (status == nullptr)
-    return banner.setMessage({}, ReviewPanel::tr("No case is shown."), Banner::Tone::kPlain);
-  QString text = fromText(sessions::reviewStatusText(*status));
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  banner.setMessage(signOf(*status), text, toneOf(*status));
-}
-
 }  // namespace
 
-ChecksModel::ChecksModel(QObject* parent) : RowsModel(columns(), parent) {}
+LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
+    : QDialog(parent), controller_(controller) {
+  ui_.setupUi(this);
+  setObjectName(QStringLiteral("limitsDialog"));
+  for (const sessions::CheckPreset& preset : sessions::checkPresets()) {
+    ui_.preset->addItem(fromText(preset.name));
+    ui_.preset->setItemData(ui_.preset->count() - 1, fromText(preset.help), Qt::ToolTipRole);
+  }
+  ui_.limits->describeIn(*ui_.limitHelp, tr("Select a limit to read its description."));
+  connect(ui_.preset, &QComboBox::textActivated, &controller_, &ReviewController::setPreset);
+  connect(ui_.secondPerson, &QCheckBox::clicked, &controller_, &ReviewController::setSecondPerson);
+  connect(ui_.resetAll, &QPushButton::clicked, this, [this] {
+    if (const auto* preset = sessions::findCheckPreset(controller_.settings().preset))
+      controller_.setLimits(preset->limits);
+  });
+  connect(ui_.close, &QPushButton::clicked, this, &QDialog::close);
+  connect(&ui_.limits->options(), &OptionsModel::edited, this, &LimitsDialog::change);
+  connect(&controller_, &ReviewController::reviewStatusChanged, this, &LimitsDialog::showSettings);
+  showSettings();
+  resize(640, 460);
+}
+
+void LimitsDialog::change(const std::string& name, const std::string& value) {
+  const sessions::ReviewSettings& settings = controller_.settings();
+  sessions::CheckLimits changed = sessions::checkLimits(settings.preset, settings.limits);
+  if (ui_.limits->apply(changed, name, value)) controller_.setLimits(changed);
+}
+
+void LimitsDialog::showSettings() {
+  const sessions::ReviewSettings& settings = controller_.settings();
+  const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
+  if (preset == nullptr) return;
+  ui_.limits->setOptions(
+      sessions::listOptions(sessions::checkLimits(settings.preset, settings.limits)),
+      sessions::listOptions(preset->limits));
+  ui_.preset->setCurrentText(fromText(preset->name));
+  ui_.preset->setToolTip(fromText(preset->help));
+  ui_.presetHelp->setText(fromText(preset->help));
+  ui_.secondPerson->setChecked(settings.second_person);
+  ui_.resetAll->setEnabled(!settings.limits.empty());
+}
+
+ChecksModel::ChecksModel() : RowsModel(columns()) {}
 
 QString ChecksModel::sign(CheckState state) {
   return state == CheckState::kPassed   ? QStringLiteral("✓")
@@ -152,10 +137,7 @@ QString ChecksModel::sign(CheckState state) {
 }
 
 void ChecksModel::setChecks(std::vector<sessions::Check> checks, bool current) {
-  std::stable_sort(checks.begin(), checks.end(),
-                   [](const sessions::Check& a, const sessions::Check& b) {
-                     return rank(a.state) < rank(b.state);
-                   });
+  std::ranges::stable_sort(checks, {}, [](const auto& check) { return rank(check.state); });
   if (checks == rows() && current == current_) return;
   current_ = current;
   setRowsByKey(std::move(checks), &sessions::Check::id);
@@ -172,8 +154,7 @@ QVariant ChecksModel::look(const sessions::Check& row, int /*column*/, int role)
              : QVariant();
 }
 
-ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
-    : QWidget(parent), controller_(document, state) {
+ReviewPanel::ReviewPanel(Document& document, ViewState& state) : controller_(document, state) {
   ui_.setupUi(this);
   decision_ = new DecisionForm(controller_);
   connect(&document, &Document::opened, decision_, &DecisionForm::forgetName);
@@ -182,18 +163,23 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   ui_.splitter->setSizes({600, 200});
   ui_.convergenceSeeds->setValue(sessions::kConvergenceSeeds);
   buildTable();
-  ui_.passedFold->restore(true);
-  ui_.notApplicableFold->restore(true);
-  for (const FoldButton* fold : {ui_.passedFold, ui_.notApplicableFold})
+  for (FoldButton* fold : {ui_.passedFold, ui_.notApplicableFold}) {
+    fold->restore(true);
     connect(fold, &FoldButton::foldedChanged, this, [this] {
       showFolds();
       showChosen();
     });
+  }
   connect(ui_.judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
     controller_.setSource(static_cast<PoseSource>(ui_.judged->currentData().toInt()));
   });
   connect(ui_.openLimits, &QPushButton::clicked, this, &ReviewPanel::openLimits);
-  connect(ui_.convergence, &QPushButton::clicked, this, &ReviewPanel::askForConvergenceTest);
+  connect(ui_.convergence, &QPushButton::clicked, this, [this] {
+    if (controller_.isConvergenceTestRunning())
+      controller_.stopConvergenceTest();
+    else
+      controller_.startConvergenceTest(ui_.convergenceSeeds->value());
+  });
   connect(&controller_, &ReviewController::reviewStatusChanged, this,
           &ReviewPanel::showReviewStatus);
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
@@ -204,18 +190,11 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   showChecks();
 }
 
-QTableView& ReviewPanel::table() { return *ui_.checks; }
-
 void ReviewPanel::buildTable() {
   setUpTable(*ui_.checks, model_);
-  // It is as high as its rows: cards and rows scroll together.
-  ui_.checks->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
-  ui_.checks->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   QHeaderView& header = *ui_.checks->horizontalHeader();
   header.setSectionResizeMode(QHeaderView::ResizeToContents);
-  header.setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   header.setSectionResizeMode(ChecksModel::kCheck, QHeaderView::Stretch);
-  header.setMinimumSectionSize(24);
   // Long names take a second line.
   ui_.checks->setWordWrap(true);
   ui_.checks->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
@@ -237,7 +216,12 @@ void ReviewPanel::hideEvent(QHideEvent* event) {
 
 void ReviewPanel::showReviewStatus() {
   const sessions::ReviewStatus status = controller_.reviewStatus();
-  showStatus(controller_.caseId().empty() ? nullptr : &status, *ui_.caseReviewStatus);
+  QString text = fromText(sessions::reviewStatusText(status));
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  if (controller_.caseId().empty())
+    ui_.caseReviewStatus->setMessage({}, tr("No case is shown."), Banner::Tone::kPlain);
+  else
+    ui_.caseReviewStatus->setMessage(signOf(status), text, toneOf(status));
   const sessions::ReviewSettings& settings = controller_.settings();
   ui_.openLimits->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
@@ -263,7 +247,6 @@ void ReviewPanel::showSources() {
 }
 
 void ReviewPanel::showChecks() {
-  const QString& problem = controller_.problem();
   std::vector<FailedCheck> failed;
   for (const sessions::Check& check : controller_.checks())
     if (check.state == CheckState::kFailed) failed.push_back({check, controller_.reasonFor(check)});
@@ -271,10 +254,12 @@ void ReviewPanel::showChecks() {
   // Where none failed, the measure leads.
   ui_.precision->setChecks(failed.empty() ? controller_.checks() : std::vector<sessions::Check>());
   model_.setChecks(controller_.checks(), controller_.isCurrent());
-  ui_.emptyHint->setText(!problem.isEmpty()       ? problem
-                         : model_.rowCount() == 0 ? tr("The pose is being checked ...")
-                                                  : tr("Inputs have changed: the checks are out "
-                                                       "of date and run again."));
+  const QString& problem = controller_.problem();
+  ui_.emptyHint->setText(!problem.isEmpty() ? problem
+                         : model_.rowCount() == 0
+                             ? tr("The pose is being checked ...")
+                             : tr("Inputs have changed: the checks are out of date and run "
+                                  "again."));
   ui_.emptyHint->setVisible(!controller_.isCurrent());
   showFolds();
   showChosen();
@@ -287,7 +272,7 @@ void ReviewPanel::showFolds() {
   const std::array<const FoldButton*, 3> folds = {nullptr, ui_.passedFold, ui_.notApplicableFold};
   bool any = false;
   for (int row = 0; row < model_.rowCount(); ++row) {
-    const auto kind = static_cast<std::size_t>(rank(model_.state(row)));
+    const auto kind = static_cast<std::size_t>(rank(model_.at(row).state));
     const bool shown = folds[kind] && !folds[kind]->isFolded();
     ++counts[kind];
     any |= shown;
@@ -327,13 +312,6 @@ void ReviewPanel::showConvergence() {
                     .arg(so_far.seeds)
               : tr("Runs from further seeds within the declared uncertainty and counts those that "
                    "return to this pose. Takes one run per seed; can be stopped."));
-}
-
-void ReviewPanel::askForConvergenceTest() {
-  if (controller_.isConvergenceTestRunning())
-    controller_.stopConvergenceTest();
-  else
-    controller_.startConvergenceTest(ui_.convergenceSeeds->value());
 }
 
 void ReviewPanel::openLimits() {

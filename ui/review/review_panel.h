@@ -39,12 +39,11 @@ class ChecksModel : public RowsModel<sessions::Check> {
  public:
   enum Column { kCheck, kFound, kLimit };
 
-  explicit ChecksModel(QObject* parent = nullptr);
+  ChecksModel();
 
   /// `current` false: their inputs have changed since, and they are shown as outdated. Rows of the
   /// same checks change in place, so that selections stay.
   void setChecks(std::vector<sessions::Check> checks, bool current);
-  sessions::CheckState state(int row) const { return at(row).state; }
   /// "✓", "✗" or "–": each state has a unique shape.
   static QString sign(sessions::CheckState state);
 
@@ -61,14 +60,14 @@ class ReviewPanel : public QWidget {
   Q_OBJECT
 
  public:
-  ReviewPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
+  ReviewPanel(Document& document, ViewState& state);
 
   ReviewController& controller() { return controller_; }
   DecisionForm& decision() { return *decision_; }
-  QTableView& table();
+  QTableView& table() { return *ui_.checks; }
 
  Q_SIGNALS:
-  /// What the figure of a failed check comes from should be shown.
+  /// Requests to show the source of a failed check's figure.
   void checkShowRequested(const std::string& check_id);
 
  protected:
@@ -84,7 +83,6 @@ class ReviewPanel : public QWidget {
   void showChosen();
   void showFolds();
   void showConvergence();
-  void askForConvergenceTest();
   void openLimits();
 
   ReviewController controller_;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "sessions/run/runner.h"
-#include "sessions/trace/run_headline.h"
+#include "sessions/trace/run_text.h"
 #include "ui/models/text.h"
 
 namespace boresight::ui {
@@ -19,8 +19,6 @@ int BatchSummary::count() const {
   for (const auto& [end, number] : ends) cases += number;
   return cases;
 }
-
-Batch::Batch(QObject* parent) : QObject(parent) {}
 
 void Batch::start(const QStringList& ids) {
   waiting_ = ids;

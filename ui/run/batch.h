@@ -43,7 +43,7 @@ class Batch : public QObject {
  public:
   using TracePtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
-  explicit Batch(QObject* parent = nullptr);
+  using QObject::QObject;
 
   bool isActive() const { return progress_.has_value(); }
   const std::optional<BatchProgress>& progress() const { return progress_; }

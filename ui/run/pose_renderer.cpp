@@ -26,25 +26,18 @@ struct PoseRenderer::Renderers {
   std::shared_ptr<const sessions::LoadedCase> one;
   std::array<std::optional<sessions::SceneRenderer>, kMovingLevel + 1> by_level;
 
-  Status begin(const Pose& camera_from_station, int level) {
-    auto& renderer = by_level[static_cast<std::size_t>(level)];
-    if (!renderer) {
-      renderer.emplace();
-      const Status status =
-          renderer->create(cameraAtLevel(one->source.camera, level), one->scene.view());
-      if (status != Status::kOk) {
-        renderer.reset();
-        return status;
-      }
-    }
-    return renderer->begin(camera_from_station);
-  }
-
   Drawn draw(const Pose& camera_from_station, int level, const std::stop_token& stop) {
     Drawn drawn;
     drawn.level = level;
-    Status status = begin(camera_from_station, level);
     auto& renderer = by_level[static_cast<std::size_t>(level)];
+    Status status = Status::kOk;
+    if (!renderer)
+      status =
+          renderer.emplace().create(cameraAtLevel(one->source.camera, level), one->scene.view());
+    if (status == Status::kOk)
+      status = renderer->begin(camera_from_station);
+    else
+      renderer.reset();
     for (bool done = false; status == Status::kOk && !done;) {
       if (stop.stop_requested()) return drawn;
       status = renderer->step(done);
@@ -61,7 +54,7 @@ struct PoseRenderer::Renderers {
 PoseRenderer::PoseRenderer(QObject* parent) : QObject(parent) {
   rest_.setSingleShot(true);
   rest_.setInterval(kRest_ms);
-  connect(&rest_, &QTimer::timeout, this, &PoseRenderer::drawResting);
+  connect(&rest_, &QTimer::timeout, this, [this] { draw(restingKey(), 0); });
   connect(&runner_, &TaskRunner::failed, this, [this](const QString& message) {
     setCase(renderers_ ? renderers_->one : nullptr);  // gives their memory back
     Q_EMIT failed(message);
@@ -99,28 +92,23 @@ void PoseRenderer::clear() {
 void PoseRenderer::drawMoving() {
   drawing_ = true;
   overtaken_ = false;
-  runner_.start(
-      movingKey(),
-      [renderers = renderers_, pose = camera_from_station_](const std::stop_token& stop) {
-        return renderers->draw(pose, kMovingLevel, stop);
-      },
-      [this](const Drawn& drawn) {
-        drawing_ = false;
-        if (overtaken_) drawMoving();
-        take(drawn);
-      });
+  draw(movingKey(), kMovingLevel);
 }
 
-void PoseRenderer::drawResting() {
+void PoseRenderer::draw(const QString& key, int level) {
   runner_.start(
-      restingKey(),
-      [renderers = renderers_, pose = camera_from_station_](const std::stop_token& stop) {
-        return renderers->draw(pose, 0, stop);
+      key,
+      [renderers = renderers_, pose = camera_from_station_, level](const std::stop_token& stop) {
+        return renderers->draw(pose, level, stop);
       },
       [this](const Drawn& drawn) { take(drawn); });
 }
 
 void PoseRenderer::take(const Drawn& drawn) {
+  if (drawn.level == kMovingLevel) {
+    drawing_ = false;
+    if (overtaken_) drawMoving();
+  }
   if (drawn.render)
     Q_EMIT rendered(drawn.render, drawn.level);
   else if (!drawn.problem.isEmpty())

@@ -45,7 +45,7 @@ class PoseRenderer : public QObject {
   struct Drawn;
 
   void drawMoving();
-  void drawResting();
+  void draw(const QString& key, int level);
   void take(const Drawn& drawn);
 
   std::shared_ptr<Renderers> renderers_;  ///< nullptr without a case

@@ -81,8 +81,7 @@ void RunController::reset(RunInputs inputs) {
   inputs_ = std::move(inputs);
   snapshot_.reset();
   views_.clear();
-  job_ = std::make_shared<Job>();
-  job_->inputs = inputs_;
+  job_ = std::make_shared<Job>(Job{inputs_, nullptr, nullptr});
   setState(inputs_.one ? RunState::kReady : RunState::kEmpty);
   Q_EMIT snapshotChanged();
 }
@@ -106,10 +105,7 @@ void RunController::advance(StepUntil until) {
 void RunController::stop() { runner_.stop(runTaskKey()); }
 
 void RunController::takeResult(std::vector<SnapshotPtr> records, bool halted) {
-  if (records.empty()) {
-    setState(RunState::kHalted);
-    return;
-  }
+  if (records.empty()) return setState(RunState::kHalted);
   snapshot_ = records.front();
   views_ = inputs_.others.empty() ? std::vector<SnapshotPtr>() : std::move(records);
   const bool ended = snapshot_->finished;
@@ -119,8 +115,7 @@ void RunController::takeResult(std::vector<SnapshotPtr> records, bool halted) {
 }
 
 void RunController::takeFailure(const QString& message) {
-  job_ = std::make_shared<Job>();
-  job_->inputs = inputs_;
+  job_ = std::make_shared<Job>(Job{inputs_, nullptr, nullptr});
   setState(RunState::kReady);
   Q_EMIT failed(message);
 }

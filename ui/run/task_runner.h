@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <stop_token>
 #include <utility>
 
@@ -45,26 +44,15 @@ class TaskRunner : public QObject {
   /// The same; `failed(message)` is called when the work throws.
   template <class Make, class Done, class Failed>
   void start(const QString& key, Make make, Done done, Failed failed) {
-    using Value = decltype(make(std::stop_token()));
-    struct Outcome {
-      std::optional<Value> value;
-      QString problem;
-    };
-    start(
-        key,
-        [make = std::move(make)](const std::stop_token& stop) {
-          try {
-            return Outcome{make(stop), {}};
-          } catch (const std::exception& error) {
-            return Outcome{std::nullopt, QString::fromUtf8(error.what())};
-          }
-        },
-        [done = std::move(done), failed = std::move(failed)](Outcome outcome) {
-          if (outcome.value)
-            done(std::move(*outcome.value));
-          else
-            failed(outcome.problem);
-        });
+    run(key, [make = std::move(make), done = std::move(done), failed = std::move(failed)](
+                 const std::stop_token& stop, const Report& report) {
+      try {
+        auto value = std::make_shared<decltype(make(stop))>(make(stop));
+        report([value, done] { done(std::move(*value)); });
+      } catch (const std::exception& error) {
+        report([failed, message = QString::fromUtf8(error.what())] { failed(message); });
+      }
+    });
   }
 
   /// Asks running and waiting tasks of this key to stop; their reports are still delivered.

@@ -2,6 +2,7 @@
 #include "ui/scene/scene_aim.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include <QCoreApplication>
@@ -72,23 +73,21 @@ SceneAim aimOf(const MeshSnapper& mesh, const MeshSnap& snap) {
 /// Named points that are seen, the nearest first.
 std::vector<SceneAim> landmarkAims(const MeshSnapper& mesh,
                                    const std::vector<sessions::Proposal>& proposals,
-                                   const Viewpoint& view, const QPointF& pixel) {
-  std::vector<std::pair<double, SceneAim>> aims;
+                                   const Viewpoint& view, const QPointF& pixel, double radius_px) {
+  std::multimap<double, SceneAim> aims;
   for (const sessions::Proposal& proposal : proposals) {
     const Eigen::Vector3d& at_m = proposal.landmark.point_in_station_m;
     const auto at = view.toCanvas(at_m);
     if (!at) continue;
     const double away_px = distance_px(*at, pixel);
-    if (away_px > kSceneSnap_px || !mesh.seenFrom(view.eyeInStation_m(), at_m)) continue;
+    if (away_px > radius_px || !mesh.seenFrom(view.eyeInStation_m(), at_m)) continue;
     SceneAim aim;
     aim.point_in_station_m = at_m;
     aim.landmark = proposal.landmark;
     aim.snapped = true;
     aim.text = sceneAimText("named point %1").arg(QString::fromStdString(proposal.landmark.name));
-    aims.emplace_back(away_px, aim);
+    aims.emplace(away_px, aim);
   }
-  std::sort(aims.begin(), aims.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<SceneAim> scene_aims;
   for (auto& [away_px, aim] : aims) scene_aims.push_back(std::move(aim));
   return scene_aims;
@@ -99,13 +98,14 @@ std::vector<SceneAim> landmarkAims(const MeshSnapper& mesh,
 std::optional<SceneAim> sceneAim(const MeshSnapper& mesh,
                                  const std::vector<sessions::Proposal>& proposals,
                                  const Viewpoint& view, const QPointF& pixel,
-                                 const SceneAimRules& rules) {
+                                 const AimRules& rules) {
   const Eigen::Vector2d at(pixel.x(), pixel.y());
   std::vector<SceneAim> aims;
-  if (!rules.line && rules.snaps) aims = landmarkAims(mesh, proposals, view, pixel);
+  if (!rules.line && rules.snaps)
+    aims = landmarkAims(mesh, proposals, view, pixel, rules.radius_px);
   if (rules.line || rules.snaps) {
     const auto snaps = sessions::likeliestFirst(
-        mesh.near(view.camera, view.view_from_station, at, kSceneSnap_px), kSceneSnap_px);
+        mesh.near(view.camera, view.view_from_station, at, rules.radius_px), rules.radius_px);
     for (const MeshSnap& snap : snaps)
       if (!rules.line || snap.edge) aims.push_back(aimOf(mesh, snap));
   }

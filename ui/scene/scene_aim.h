@@ -8,6 +8,7 @@
 
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/mesh_snap.h"
+#include "ui/annotation/annotation_aim.h"
 #include "ui/scene/scene_content.h"
 #include "ui/scene/viewpoint.h"
 
@@ -22,13 +23,6 @@ int pickTemplate(const SceneContent& content, const Viewpoint& view, const QPoin
 
 inline constexpr double kSceneSnap_px = 12.0;  ///< of the canvas
 
-/// Rules of aiming at a point of the station.
-struct SceneAimRules {
-  bool snaps = true;
-  bool line = false;  ///< an edge, or nothing
-  int turn = 0;       ///< number of requests for another candidate
-};
-
 /// Target of a click into the scene.
 struct SceneAim {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
@@ -41,13 +35,13 @@ struct SceneAim {
 };
 
 /// The target at a pixel of the canvas: named points, then visible corners, edges and centres of
-/// circles within kSceneSnap_px, the likeliest first; without one (or with snapping off) the
+/// circles within the radius, the likeliest first; without one (or with snapping off) the
 /// surface. Empty off the station, and for lines away from all edges. Computed from the geometry:
 /// the same on every screen, and exact at any magnification.
 std::optional<SceneAim> sceneAim(const sessions::MeshSnapper& mesh,
                                  const std::vector<sessions::Proposal>& proposals,
                                  const Viewpoint& view, const QPointF& pixel,
-                                 const SceneAimRules& rules);
+                                 const AimRules& rules);
 
 /// Coordinates of a point of the station in millimetres, and its kind.
 QString stationPlaceText(const Eigen::Vector3d& place_m, const QString& what);

@@ -159,11 +159,7 @@ SceneAnnotation annotationOf(const Pair& pair, const AnnotationController& contr
   SceneAnnotation annotation;
   annotation.id = pair.id;
   annotation.locked = pair.locked;
-  annotation.state.complete = pair.complete();
-  annotation.state.enabled = pair.enabled;
-  annotation.state.chosen = pair.id == controller.selected();
-  const auto outlier = outlying.find(pair.id);
-  if (pair.used() && outlier != outlying.end()) annotation.state.outlier = outlier->second;
+  annotation.state = stateOf(pair, controller.selected(), outlying);
   return annotation;
 }
 

@@ -14,6 +14,7 @@
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/overlay_painters.h"
 #include "ui/views/view_transform.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -24,6 +25,21 @@ QPointF pixelAt(const QPointF& at) { return at - QPointF(0.5, 0.5); }
 bool takesKey(const QKeyEvent& event) {
   constexpr std::array kKeys = {Qt::Key_Tab, Qt::Key_Escape, Qt::Key_Delete, Qt::Key_Alt};
   return std::find(kKeys.begin(), kKeys.end(), event.key()) != kKeys.end();
+}
+
+/// magnifiedView() for the camera's image behind the scene, cut to the part that the square shows.
+std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
+                                          const QPointF& pixel, double magnification, int side) {
+  if (!backdrop) return std::nullopt;
+  const double scale = magnification * backdrop->where.width() / backdrop->gray.width();
+  const QPointF corner = magnification * (backdrop->where.topLeft() - pixel - QPointF(0.5, 0.5)) +
+                         QPointF(0.5 * side, 0.5 * side);
+  // Painters lose their way on pictures a million pixels wide.
+  const QRectF shown(-corner / scale, QSizeF(side, side) / scale);
+  const QRect cut = shown.toAlignedRect().intersected(backdrop->gray.rect());
+  if (cut.isEmpty()) return std::nullopt;
+  return Backdrop{backdrop->gray.copy(cut),
+                  QRectF(corner + scale * QPointF(cut.topLeft()), scale * QSizeF(cut.size()))};
 }
 
 }  // namespace
@@ -39,20 +55,6 @@ Viewpoint magnifiedView(const Viewpoint& view, const QPointF& pixel, double magn
   viewpoint.camera.cy = (view.camera.cy - pixel.y()) * magnification + middle;
   if (prepareCamera(viewpoint.camera) != Status::kOk) viewpoint.camera.valid_radius = 0.0;
   return viewpoint;
-}
-
-std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
-                                          const QPointF& pixel, double magnification, int side) {
-  if (!backdrop) return std::nullopt;
-  const double scale = magnification * backdrop->where.width() / backdrop->gray.width();
-  const QPointF corner = magnification * (backdrop->where.topLeft() - pixel - QPointF(0.5, 0.5)) +
-                         QPointF(0.5 * side, 0.5 * side);
-  // Painters lose their way on pictures a million pixels wide.
-  const QRectF shown(-corner / scale, QSizeF(side, side) / scale);
-  const QRect cut = shown.toAlignedRect().intersected(backdrop->gray.rect());
-  if (cut.isEmpty()) return std::nullopt;
-  return Backdrop{backdrop->gray.copy(cut),
-                  QRectF(corner + scale * QPointF(cut.topLeft()), scale * QSizeF(cut.size()))};
 }
 
 SceneLoupe::SceneLoupe(QWidget* canvas, Over over) : QWidget(canvas), over_(std::move(over)) {
@@ -122,12 +124,9 @@ SceneAnnotator::SceneAnnotator(QWidget& canvas, AnnotationController& annotation
       })) {
   canvas_.installEventFilter(this);
   connect(&annotation_, &AnnotationController::modeChanged, this, &SceneAnnotator::showMode);
-  connect(&annotation_, &AnnotationController::annotationsChanged, this,
-          &SceneAnnotator::showAnnotations);
-  connect(&annotation_, &AnnotationController::selectionChanged, this,
-          &SceneAnnotator::showAnnotations);
-  connect(&annotation_, &AnnotationController::solutionChanged, this,
-          &SceneAnnotator::showAnnotations);
+  using Controller = AnnotationController;
+  connectEach(annotation_, this, &SceneAnnotator::showAnnotations, &Controller::annotationsChanged,
+              &Controller::selectionChanged, &Controller::solutionChanged);
   connect(&snapper_, &StationSnapper::meshChanged, this, &SceneAnnotator::updateAim);
   showMode();
   showAnnotations();
@@ -197,8 +196,7 @@ void SceneAnnotator::hover(const QMouseEvent& event) {
   if (event.buttons() != Qt::NoButton) return leave();  // the view is being turned
   pointer_ = pixelAt(pointerPlace(event, canvas_));
   modifiers_ = event.modifiers();
-  const QPointF moved = *pointer_ - turned_at_;
-  if (std::hypot(moved.x(), moved.y()) > kSceneSnap_px) turn_ = 0;
+  if (distance_px(*pointer_, turned_at_) > kSceneSnap_px) turn_ = 0;
   updateAim();
 }
 
@@ -225,16 +223,19 @@ bool SceneAnnotator::pressKey(const QKeyEvent& event) {
 }
 
 std::optional<SceneAim> SceneAnnotator::aimAt(const QPointF& pixel) const {
-  return snapper_.mesh() ? sceneAim(*snapper_.mesh(), {}, shot_.view, pixel, {}) : std::nullopt;
+  return snapper_.mesh()
+             ? sceneAim(*snapper_.mesh(), {}, shot_.view, pixel, {.radius_px = kSceneSnap_px})
+             : std::nullopt;
 }
 
 void SceneAnnotator::updateAim() {
   aim_.reset();
   const bool aims = places() && pointer_ && snapper_.mesh() && shot_.content;
   if (aims) {
-    const SceneAimRules rules = {.snaps = !modifiers_.testFlag(Qt::AltModifier),
-                                 .line = annotation_.mode() == PlaceMode::kLine,
-                                 .turn = turn_};
+    const AimRules rules = {.snaps = !modifiers_.testFlag(Qt::AltModifier),
+                            .line = annotation_.mode() == PlaceMode::kLine,
+                            .radius_px = kSceneSnap_px,
+                            .turn = turn_};
     aim_ = sceneAim(*snapper_.mesh(), annotation_.answer().proposals, shot_.view, *pointer_, rules);
   }
   loupe_->lookAt(shot_, places() ? pointer_ : std::nullopt);

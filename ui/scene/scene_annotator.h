@@ -25,9 +25,6 @@ class StationSnapper;
 /// with the pixel's centre in its middle.
 Viewpoint magnifiedView(const Viewpoint& view, const QPointF& pixel, double magnification,
                         int side);
-/// The same for the camera's image behind the scene, cut to the part that the square shows.
-std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
-                                          const QPointF& pixel, double magnification, int side);
 
 /// All data that the scene draws, in one value.
 struct SceneShot {
@@ -58,7 +55,6 @@ class SceneLoupe : public QWidget {
 
   /// Shows a pixel of the canvas under the cross; empty: the loupe hides.
   void lookAt(const SceneShot& shot, const std::optional<QPointF>& pixel);
-  const std::optional<QPointF>& place() const { return pixel_; }
   /// Whether the newest position is drawn.
   bool ready() const { return !runner_.isBusy(); }
 
@@ -86,7 +82,7 @@ class SceneAnnotator : public QObject {
   Q_OBJECT
 
  public:
-  /// Belongs to the canvas.
+  /// The canvas owns it.
   SceneAnnotator(QWidget& canvas, AnnotationController& annotation, StationSnapper& snapper);
 
   bool places() const;
@@ -99,7 +95,6 @@ class SceneAnnotator : public QObject {
   std::optional<SceneAim> aimAt(const QPointF& pixel) const;
   /// Target of a click now; empty when a click has no effect.
   const std::optional<SceneAim>& aim() const { return aim_; }
-  const std::vector<SceneAnnotation>& annotations() const { return annotations_; }
   SceneLoupe& loupe() const { return *loupe_; }
   /// Cameras of the rig that are solved with this one, at their solved poses.
   std::vector<Frustum> rigFrusta(const Eigen::Vector3d& centre_m) const;

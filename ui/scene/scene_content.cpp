@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Geometry>
 #include <QCoreApplication>
 
 #include "core/base/math.h"
-#include "sessions/trace/run_headline.h"
+#include "sessions/trace/run_text.h"
 #include "ui/models/text.h"
 #include "ui/style/theme.h"
 #include "ui/views/layer.h"
@@ -17,42 +18,26 @@ namespace boresight::ui {
 namespace {
 
 constexpr double kFrustumShare = 0.3;  ///< of the way to the scene's centre
-constexpr double kDashesPerLine = 12.0;
 
 QString sceneText(const char* source) { return QCoreApplication::translate("Scene", source); }
 
 BoundingBox boundsOf(const MeshView& mesh) {
-  if (mesh.vertices_in_station_m.empty()) return {};
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) box.extend(vertex);
-  return {box.min().cast<double>(), box.max().cast<double>()};
+  return boxOf(box);
 }
 
-Eigen::Vector3d rayOf(const Camera& camera, double x, double y) {
+Eigen::Vector3d rayOf(const Camera& camera, const Eigen::Vector2d& pixel) {
   Eigen::Vector3d ray;
-  if (unproject(camera, {x, y}, ray)) return ray;
-  return {(x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0};
-}
-
-void addDashed(std::vector<SceneLine>& lines, const SceneLine& line, const PoseRoleStyle& style) {
-  for (const SceneLine& dash : dashed(line, style.dashes)) lines.push_back(dash);
-}
-
-/// In the camera frame, of the parts that are fixed to the camera: a gripper, a held tube.
-std::vector<SceneLine> heldEdges(const sessions::SceneMesh& scene) {
-  const MeshView held = sessions::heldView(scene);
-  const auto at = [&held](std::int32_t vertex) -> Eigen::Vector3d {
-    return held.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>();
-  };
-  std::vector<SceneLine> lines;
-  for (const auto& [from, to] : sharpEdges(held)) lines.emplace_back(at(from), at(to));
-  return lines;
+  if (unproject(camera, pixel, ray)) return ray;
+  return {(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy, 1.0};
 }
 
 void addFrusta(const ViewState& state, SceneContent& content) {
   const sessions::LoadedCase& loaded_case = *content.one;
   const Eigen::Vector3d centre_m = content.bounds.centre();
-  const std::vector<SceneLine> held_in_camera_m = heldEdges(loaded_case.scene);
+  // Of the parts that are fixed to the camera: a gripper, a held tube.
+  const auto held_in_camera_m = sharpEdges(sessions::heldView(loaded_case.scene));
   const std::array<QString, kPoseRoles> labels = {
       sceneText("seed"),
       state.snapshot()
@@ -130,10 +115,6 @@ double residualLimit(const std::vector<ScenePoint>& points) {
   return roundedUp(std::max(*at, 0.01));
 }
 
-}  // namespace
-
-namespace {
-
 constexpr int kRejected = kPoseRoles;  ///< after the roles
 using RoleStyles = std::array<PoseRoleStyle, kPoseRoles + 1>;
 
@@ -157,18 +138,18 @@ const PoseRoleStyle& poseRoleStyle(PoseRole role, bool rejected) {
   return styles[static_cast<std::size_t>(rejected ? kRejected : static_cast<int>(role))];
 }
 
-std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes) {
-  double period = 0.0;
-  for (const double length : dashes) period += length;
+std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes,
+                              double periods) {
+  const double period = std::accumulate(dashes.begin(), dashes.end(), 0.0);
   if (dashes.size() < 2 || !(period > 0.0)) return {line};
   const Eigen::Vector3d along = line.second - line.first;
   std::vector<SceneLine> scene_lines;
   double from = 0.0;  // in periods of the whole line
-  for (std::size_t i = 0; from < kDashesPerLine; ++i) {
-    const double to = std::min(from + dashes[i % dashes.size()] / period, kDashesPerLine);
+  for (std::size_t i = 0; from < periods - 1e-9; ++i) {
+    const double to = std::min(from + dashes[i % dashes.size()] / period, periods);
     if (i % 2 == 0)
-      scene_lines.emplace_back(line.first + from / kDashesPerLine * along,
-                               line.first + to / kDashesPerLine * along);
+      scene_lines.emplace_back(line.first + from / periods * along,
+                               line.first + to / periods * along);
     from = to;
   }
   return scene_lines;
@@ -190,19 +171,21 @@ Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
   const std::array<Eigen::Vector2d, 4> corners = {
       {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
   for (std::size_t i = 0; i < 4; ++i)
-    frustum.corner_m[i] =
-        station_from_camera * (depth_m * rayOf(camera, corners[i].x(), corners[i].y()));
+    frustum.corner_m[i] = station_from_camera * (depth_m * rayOf(camera, corners[i]));
+  std::vector<SceneLine> solid;
   for (std::size_t i = 0; i < 4; ++i) {
-    addDashed(frustum.lines, {frustum.apex_m, frustum.corner_m[i]}, style);
-    addDashed(frustum.lines, {frustum.corner_m[i], frustum.corner_m[(i + 1) % 4]}, style);
+    solid.emplace_back(frustum.apex_m, frustum.corner_m[i]);
+    solid.emplace_back(frustum.corner_m[i], frustum.corner_m[(i + 1) % 4]);
   }
   const Eigen::Vector3d& left_m = frustum.corner_m[0];
   const Eigen::Vector3d& right_m = frustum.corner_m[1];
   const Eigen::Vector3d roof_m =
       0.5 * (left_m + right_m) +
       0.15 * (0.5 * (left_m + right_m) - 0.5 * (frustum.corner_m[2] + frustum.corner_m[3]));
-  addDashed(frustum.lines, {left_m, roof_m}, style);
-  addDashed(frustum.lines, {roof_m, right_m}, style);
+  solid.emplace_back(left_m, roof_m);
+  solid.emplace_back(roof_m, right_m);
+  for (const SceneLine& line : solid)
+    for (const SceneLine& dash : dashed(line, style.dashes)) frustum.lines.push_back(dash);
   // The frusta of a good run nearly coincide, so each role has its label in a place of its own.
   const std::array<Eigen::Vector3d, kPoseRoles> places = {
       left_m, frustum.apex_m, frustum.corner_m[3], right_m, frustum.corner_m[2]};
@@ -237,7 +220,7 @@ QColor axisColor(int axis) {
   return colors[static_cast<std::size_t>(axis)];
 }
 
-std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh) {
+std::vector<SceneLine> sharpEdges(const MeshView& mesh) {
   struct Side {
     std::array<std::int32_t, 2> ends{};
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
@@ -259,15 +242,32 @@ std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh) {
   }
   std::sort(sides.begin(), sides.end(),
             [](const Side& a, const Side& b) { return a.ends < b.ends; });
-  std::vector<std::array<std::int32_t, 2>> edges;
+  std::vector<SceneLine> edges;
   for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
     while (end < sides.size() && sides[end].ends == sides[first].ends) ++end;
     // Coarse meshes are not always oriented, so the normals' signs do not count.
     const bool smooth = end - first == 2 &&
                         std::abs(sides[first].normal.dot(sides[first + 1].normal)) >= least_cosine;
-    if (!smooth) edges.push_back(sides[first].ends);
+    const auto& [low, high] = sides[first].ends;
+    if (!smooth) edges.emplace_back(at(low).cast<double>(), at(high).cast<double>());
   }
   return edges;
+}
+
+ColoredLines axisLines(const SceneContent& content) {
+  ColoredLines lines;
+  for (int axis = 0; axis < 3 && !content.empty(); ++axis)
+    lines.push_back({{Eigen::Vector3d::Zero(), content.axis_length_m * Eigen::Vector3d::Unit(axis)},
+                     axisColor(axis)});
+  return lines;
+}
+
+ColoredLines trailLines(const SceneContent& content) {
+  ColoredLines lines;
+  const QColor color = poseRoleStyle(PoseRole::kEstimate).color.darker(120);
+  for (std::size_t i = 1; i < content.trail_m.size(); ++i)
+    lines.push_back({{content.trail_m[i - 1], content.trail_m[i]}, color});
+  return lines;
 }
 
 }  // namespace boresight::ui

@@ -32,8 +32,9 @@ const PoseRoleStyle& poseRoleStyle(PoseRole role, bool rejected = false);
 /// A straight line in the station frame, metres.
 using SceneLine = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
 
-/// A line cut into the dashes of a style, which repeat along it.
-std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes);
+/// A line cut into the dashes of a style, which repeat this number of times along it.
+std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes,
+                              double periods = 12.0);
 
 /// A camera as a pyramid of the rays through its image's corners.
 struct Frustum {
@@ -75,8 +76,6 @@ struct SceneShown {
   bool trail = true;
   bool points = true;
   bool axes = true;
-
-  bool operator==(const SceneShown&) const = default;
 };
 
 /// Everything that the scene draws, as plain values in the station frame.
@@ -104,8 +103,16 @@ SceneContent sceneContent(const ViewState& state);
 /// Colours of the station's x, y and z axis, which also carry their letters.
 QColor axisColor(int axis);
 
-/// Edges of the mesh worth drawing, as pairs of vertices: where two faces meet at more than 30 deg,
-/// where a face ends, or where more than two meet.
-std::vector<std::array<std::int32_t, 2>> sharpEdges(const MeshView& mesh);
+/// Edges of the mesh worth drawing: where two faces meet at more than 30 deg, where a face ends, or
+/// where more than two meet.
+std::vector<SceneLine> sharpEdges(const MeshView& mesh);
+
+/// Lines of one colour each.
+using ColoredLines = std::vector<std::pair<SceneLine, QColor>>;
+
+/// The station's axes; none without a case.
+ColoredLines axisLines(const SceneContent& content);
+/// From each camera centre of the trail to the next.
+ColoredLines trailLines(const SceneContent& content);
 
 }  // namespace boresight::ui

@@ -2,6 +2,7 @@
 #include "ui/scene/scene_navigation.h"
 
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <QtWidgets>
@@ -197,36 +198,21 @@ std::function<void()> SceneNavigation::actOf(const QKeyEvent& event) {
   const auto zoomed = [this](double notches) {
     return [this, notches] { zoom({0.5 * canvas_.width(), 0.5 * canvas_.height()}, notches); };
   };
-  const auto turned = [this](double right, double down) {
-    return [this, by = kKeyTurn_px * QPointF(right, down)] {
-      turn(by);
+  if (const QPointF arrow = arrowOf(event.key()); !arrow.isNull())
+    return [this, arrow] {
+      turn(kKeyTurn_px * arrow);
       Q_EMIT changed();
     };
+  const std::map<int, std::function<void()>> acts = {
+      {Qt::Key_Home, [this] { reset(); }},
+      {Qt::Key_V, [this] { setThroughCamera(!through_); }},
+      {Qt::Key_Plus, zoomed(1.0)},
+      {Qt::Key_Minus, zoomed(-1.0)},
+      {Qt::Key_Comma, [this] { roll(-kKeyRoll_rad); }},
+      {Qt::Key_Period, [this] { roll(kKeyRoll_rad); }},
   };
-  switch (event.key()) {
-    case Qt::Key_Home:
-      return [this] { reset(); };
-    case Qt::Key_V:
-      return [this] { setThroughCamera(!through_); };
-    case Qt::Key_Plus:
-      return zoomed(1.0);
-    case Qt::Key_Minus:
-      return zoomed(-1.0);
-    case Qt::Key_Comma:
-      return [this] { roll(-kKeyRoll_rad); };
-    case Qt::Key_Period:
-      return [this] { roll(kKeyRoll_rad); };
-    case Qt::Key_Left:
-      return turned(-1.0, 0.0);
-    case Qt::Key_Right:
-      return turned(1.0, 0.0);
-    case Qt::Key_Up:
-      return turned(0.0, -1.0);
-    case Qt::Key_Down:
-      return turned(0.0, 1.0);
-    default:
-      return nullptr;
-  }
+  const auto act = acts.find(event.key());
+  return act == acts.end() ? nullptr : act->second;
 }
 
 }  // namespace boresight::ui

@@ -40,7 +40,7 @@ class SceneNavigation : public QObject {
   Q_OBJECT
 
  public:
-  /// Belongs to the canvas.
+  /// The canvas owns it.
   explicit SceneNavigation(QWidget& canvas);
 
   const OrbitCamera& orbit() const { return orbit_; }

@@ -3,6 +3,7 @@
 
 #include <QtWidgets>
 #include <algorithm>
+#include <tuple>
 
 #include "ui/annotation/annotation_aim.h"
 #include "ui/plots/plot_colors.h"
@@ -33,26 +34,20 @@ std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, b
     for (const Frustum& frustum : content.frusta)
       result.push_back(
           {Entry::kLine, &poseRoleStyle(frustum.role, frustum.rejected), frustum.label});
-  const auto has_part = [&](bool match) {
-    const MeshView mesh = content.mesh();
-    return std::any_of(mesh.parts.begin(), mesh.parts.end(),
-                       [match](const ScenePart& part) { return part.match == match; });
+  const auto has = [](const auto& values, auto wanted, auto member) {
+    return std::ranges::find(values, wanted, member) != values.end();
   };
-  if (look.shown.mesh && has_part(false)) {
+  if (look.shown.mesh && has(content.mesh().parts, false, &ScenePart::match)) {
     result.push_back({Entry::kMatched, nullptr, overlayText("matched part")});
     result.push_back({Entry::kOccluding, nullptr, overlayText("occluding part")});
   }
   if (!look.shown.points) return result;
-  const auto has = [&](ScenePointKind kind) {
-    return std::any_of(content.points.begin(), content.points.end(),
-                       [kind](const ScenePoint& point) { return point.kind == kind; });
-  };
-  if (has(ScenePointKind::kInlier))
-    result.push_back({Entry::kInlier, nullptr, overlayText("inlier")});
-  if (has(ScenePointKind::kOutlier))
-    result.push_back({Entry::kOutlier, nullptr, overlayText("outlier")});
-  if (has(ScenePointKind::kUnmatched))
-    result.push_back({Entry::kUnmatched, nullptr, overlayText("not used")});
+  for (const auto& [kind, sign, meaning] :
+       {std::tuple(ScenePointKind::kInlier, Entry::kInlier, "inlier"),
+        {ScenePointKind::kOutlier, Entry::kOutlier, "outlier"},
+        {ScenePointKind::kUnmatched, Entry::kUnmatched, "not used"}})
+    if (has(content.points, kind, &ScenePoint::kind))
+      result.push_back({sign, nullptr, overlayText(meaning)});
   return result;
 }
 
@@ -64,16 +59,9 @@ void paintSign(QPainter& painter, const Entry& entry, const QRectF& box) {
       const PoseRoleStyle& style = *entry.style;
       painter.setPen(QPen(style.color, 2.0));
       // The same dashes as in the scene, three times along the sign.
-      double period = 0.0;
-      for (const double length : style.dashes) period += length;
-      double x = box.left();
-      const double unit = period > 0.0 ? box.width() / 3.0 / period : 0.0;
-      if (period <= 0.0) painter.drawLine(QPointF(x, centre.y()), QPointF(box.right(), centre.y()));
-      for (std::size_t i = 0; period > 0.0 && x < box.right() - 0.5; ++i) {
-        const double to = x + unit * style.dashes[i % style.dashes.size()];
-        if (i % 2 == 0) painter.drawLine(QPointF(x, centre.y()), QPointF(to, centre.y()));
-        x = to;
-      }
+      const SceneLine whole = {{box.left(), centre.y(), 0.0}, {box.right(), centre.y(), 0.0}};
+      for (const auto& [from, to] : dashed(whole, style.dashes, 3.0))
+        painter.drawLine(QPointF(from.x(), from.y()), QPointF(to.x(), to.y()));
       return;
     }
     case Entry::kInlier:
@@ -128,88 +116,56 @@ SceneOverlay::SceneOverlay(QWidget* canvas) : QWidget(canvas) {
   setFocusPolicy(Qt::NoFocus);
 }
 
-void SceneOverlay::setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) {
-  content_ = std::move(content);
-  look_ = look;
-  update();
-}
-
-void SceneOverlay::setView(const Viewpoint& view) {
-  view_ = view;
-  update();
-}
-
-void SceneOverlay::setNote(const QString& note) {
-  note_ = note;
-  update();
-}
-
-void SceneOverlay::setAnnotation(const std::optional<Eigen::Vector3d>& at_m) {
-  annotation_ = at_m;
-  update();
-}
-
-void SceneOverlay::setHovered(const std::optional<Eigen::Vector3d>& at_m) {
-  if (at_m == hovered_) return;
-  hovered_ = at_m;
-  update();
-}
-
-void SceneOverlay::setOver(std::function<void(QPainter&)> over) {
-  over_ = std::move(over);
-  update();
-}
-
 void SceneOverlay::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  const QColor ink = isDark(look_.background) ? QColor(230, 230, 230) : QColor(30, 30, 30);
-  if (!content_ || content_->empty()) {
+  const QColor ink = isDark(look.background) ? QColor(230, 230, 230) : QColor(30, 30, 30);
+  if (!content || content->empty()) {
     painter.setPen(ink);
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
                      overlayText("Open a case to see its station and cameras here."));
     return;
   }
   paintNames(painter);
-  paintMark(painter);
+  paintMarks(painter);
   paintLegend(painter);
-  if (over_) over_(painter);
-  if (!note_.isEmpty()) {
+  if (paint_over) paint_over(painter);
+  if (!note.isEmpty()) {
     const QFontMetricsF metrics(font());
-    paintText(painter, {8.0, 6.0 + metrics.ascent()}, note_, ink);
+    paintText(painter, {8.0, 6.0 + metrics.ascent()}, note, ink);
   }
 }
 
 void SceneOverlay::paintText(QPainter& painter, const QPointF& at, const QString& written,
                              const QColor& color) const {
   paintOutlined(painter, at, painter.font(), written, color,
-                isDark(look_.background) ? QColor(0, 0, 0, 200) : QColor(255, 255, 255, 220));
+                isDark(look.background) ? QColor(0, 0, 0, 200) : QColor(255, 255, 255, 220));
 }
 
 void SceneOverlay::paintNames(QPainter& painter) const {
-  const bool dark = isDark(look_.background);
+  const bool dark = isDark(look.background);
   const auto legible = [dark](const QColor& color) {
     return dark ? color.lighter(115) : color.darker(170);
   };
-  if (look_.shown.axes)
+  if (look.shown.axes)
     for (int axis = 0; axis < 3; ++axis)
       if (const auto at =
-              view_.toCanvas(1.08 * content_->axis_length_m * Eigen::Vector3d::Unit(axis)))
+              view.toCanvas(1.08 * content->axis_length_m * Eigen::Vector3d::Unit(axis)))
         paintText(painter, *at + QPointF(-4.0, 5.0), QStringLiteral("xyz").mid(axis, 1),
                   legible(axisColor(axis)));
-  if (look_.shown.frusta)
-    for (const Frustum& frustum : content_->frusta)
-      if (const auto at = view_.toCanvas(frustum.label_at_m))
+  if (look.shown.frusta)
+    for (const Frustum& frustum : content->frusta)
+      if (const auto at = view.toCanvas(frustum.label_at_m))
         paintText(painter, *at + QPointF(6.0, -5.0), frustum.label, legible(frustum.color));
 }
 
-void SceneOverlay::paintMark(QPainter& painter) const {
-  if (const auto hovered = hovered_ ? view_.toCanvas(*hovered_) : std::nullopt)
+void SceneOverlay::paintMarks(QPainter& painter) const {
+  if (const auto pixel = hovered ? view.toCanvas(*hovered) : std::nullopt)
     for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.5), QPen(QColor(255, 255, 255), 1.5)}) {
       painter.setPen(pen);
-      paintTicks(painter, *hovered + QPointF(0.5, 0.5), 4.0, 12.0);
+      paintTicks(painter, *pixel + QPointF(0.5, 0.5), 4.0, 12.0);
     }
-  const auto pixel = annotation_ ? view_.toCanvas(*annotation_) : std::nullopt;
+  const auto pixel = clicked ? view.toCanvas(*clicked) : std::nullopt;
   if (!pixel) return;
   const QPointF at = *pixel + QPointF(0.5, 0.5);
   for (const QPen& pen : {QPen(QColor(0, 0, 0), 3.5), QPen(QColor(255, 210, 0), 1.5)}) {
@@ -221,8 +177,8 @@ void SceneOverlay::paintMark(QPainter& painter) const {
 
 void SceneOverlay::paintLegend(QPainter& painter) const {
   // Cameras have their names next to them in the scene, too.
-  const std::vector<Entry> lines = entries(*content_, look_, width() >= kLegendOfCameras_px);
-  const bool bar = look_.shown.points && !content_->points.empty();
+  const std::vector<Entry> lines = entries(*content, look, width() >= kLegendOfCameras_px);
+  const bool bar = look.shown.points && !content->points.empty();
   if (lines.empty() && !bar) return;
   const QFontMetricsF metrics(painter.font());
   const double line = metrics.height() + 2.0;
@@ -233,7 +189,7 @@ void SceneOverlay::paintLegend(QPainter& painter) const {
   const double high = line * static_cast<double>(lines.size()) + bar_height + 12.0;
   const QRectF box(width() - wide - 24.0, height() - high - 8.0, wide + 16.0, high);
   if (box.left() < 0.4 * width() || box.top() < 0.0) return;  // a small scene is not covered up
-  const bool dark = isDark(look_.background);
+  const bool dark = isDark(look.background);
   const QColor ink = dark ? QColor(230, 230, 230) : QColor(30, 30, 30);
   painter.setPen(Qt::NoPen);
   painter.setBrush(dark ? QColor(20, 22, 26, 200) : QColor(250, 250, 250, 215));
@@ -247,7 +203,7 @@ void SceneOverlay::paintLegend(QPainter& painter) const {
     y += line;
   }
   if (bar)
-    paintBar(painter, {box.left() + 8.0, y + 2.0, wide, bar_height}, content_->residual_limit_px,
+    paintBar(painter, {box.left() + 8.0, y + 2.0, wide, bar_height}, content->residual_limit_px,
              ink);
 }
 

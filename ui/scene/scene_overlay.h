@@ -68,38 +68,28 @@ std::string pickAnnotation(const std::vector<SceneAnnotation>& annotations, cons
                            const sessions::MeshSnapper& mesh, const QPointF& pixel);
 
 /// Names and the legend, in plain Qt over whichever canvas draws the scene. It ignores the mouse.
+/// After changes of its members, its owner calls update().
 class SceneOverlay : public QWidget {
  public:
   explicit SceneOverlay(QWidget* canvas);
 
-  void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look);
-  void setView(const Viewpoint& view);
-  /// Sets a line at the top, e.g. that the view is undistorted.
-  void setNote(const QString& note);
-  /// Sets the point under another view's pointer; empty: none.
-  void setHovered(const std::optional<Eigen::Vector3d>& at_m);
-  /// Sets the point that was clicked last; empty after a change of the case.
-  void setAnnotation(const std::optional<Eigen::Vector3d>& at_m);
-  /// Drawn over the scene's names, below notes.
-  void setOver(std::function<void(QPainter&)> over);
+  std::shared_ptr<const SceneContent> content;
+  SceneLook look;
+  Viewpoint view;
+  QString note;                               ///< at the top, e.g. that the view is undistorted
+  std::optional<Eigen::Vector3d> hovered;     ///< the point under another view's pointer
+  std::optional<Eigen::Vector3d> clicked;     ///< the point that was clicked last in this case
+  std::function<void(QPainter&)> paint_over;  ///< drawn over the names, below the note
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
   void paintNames(QPainter& painter) const;
-  void paintMark(QPainter& painter) const;
+  void paintMarks(QPainter& painter) const;
   void paintLegend(QPainter& painter) const;
   void paintText(QPainter& painter, const QPointF& at, const QString& text,
                  const QColor& color) const;
-
-  std::shared_ptr<const SceneContent> content_;
-  SceneLook look_;
-  Viewpoint view_;
-  QString note_;
-  std::optional<Eigen::Vector3d> annotation_;
-  std::optional<Eigen::Vector3d> hovered_;
-  std::function<void(QPainter&)> over_;
 };
 
 }  // namespace boresight::ui

@@ -82,11 +82,7 @@ class DotStamps {
     QPainter painter(&stamp);
     painter.setRenderHint(QPainter::Antialiasing);
     // Around dots this small a rim would be most of what is seen.
-    if (radius < 2.5 * ratio_) {
-      painter.setPen(Qt::NoPen);
-    } else {
-      painter.setPen(QPen(Qt::black, 0.8 * ratio_));
-    }
+    painter.setPen(radius < 2.5 * ratio_ ? QPen(Qt::NoPen) : QPen(Qt::black, 0.8 * ratio_));
     painter.setBrush(inlier ? heatColor(share) : QColor(150, 150, 150));
     painter.drawEllipse(QPointF(0.5 * side, 0.5 * side), radius, radius);
     return stamp;
@@ -199,23 +195,19 @@ QImage meshPicture(const SceneContent& content, const SceneLook& look, const Sur
 
 void paintThings(const Brush& brush, const SceneContent& content, const SceneLook& look) {
   if (look.shown.axes)
-    for (int axis = 0; axis < 3; ++axis)
-      brush.line({Eigen::Vector3d::Zero(), content.axis_length_m * Eigen::Vector3d::Unit(axis)},
-                 QPen(axisColor(axis), 2.0));
+    for (const auto& [line, color] : axisLines(content)) brush.line(line, QPen(color, 2.0));
   if (look.shown.frusta)
     for (const Frustum& frustum : content.frusta)
       for (const SceneLine& line : frustum.lines)
         brush.line(line, QPen(frustum.color, poseRoleStyle(frustum.role).width_px));
   if (look.shown.trail) {
-    const QColor color = poseRoleStyle(PoseRole::kEstimate).color;
-    for (std::size_t i = 1; i < content.trail_m.size(); ++i)
-      brush.line({content.trail_m[i - 1], content.trail_m[i]}, QPen(color.darker(120), 1.5));
+    for (const auto& [line, color] : trailLines(content)) brush.line(line, QPen(color, 1.5));
     for (std::size_t i = 0; i < content.trail_m.size(); ++i) {
       const auto at = brush.visible(content.trail_m[i]);
       if (!at) continue;
       const double radius = static_cast<int>(i) == content.trail_now ? 4.5 : 2.5;
       brush.painter.setPen(QPen(Qt::black, 0.8));
-      brush.painter.setBrush(color);
+      brush.painter.setBrush(poseRoleStyle(PoseRole::kEstimate).color);
       brush.painter.drawEllipse(*at, radius, radius);
       brush.painter.setBrush(Qt::NoBrush);
     }
@@ -273,7 +265,13 @@ class PictureCanvas final : public QWidget, public SceneCanvas {
     QPainter painter(this);
     painter.fillRect(rect(), look_.background);
     if (!content_ || view_.camera.width <= 0) return;
-    if (picture_.isNull()) draw(devicePixelRatioF());
+    if (picture_.isNull()) {
+      const double ratio = devicePixelRatioF();
+      // Surfaces take longest, and do not change during a run.
+      if (!surfaces_ || ratio != ratio_) surfaces_.emplace(*content_, view_, ratio);
+      ratio_ = ratio;
+      picture_ = drawPicture(*content_, look_, view_, backdrop_, ratio, *surfaces_);
+    }
     painter.drawImage(0, 0, picture_);
   }
 
@@ -281,13 +279,6 @@ class PictureCanvas final : public QWidget, public SceneCanvas {
   void changed() {
     picture_ = QImage();
     update();
-  }
-
-  /// Surfaces take longest, and do not change during a run.
-  void draw(double ratio) {
-    if (!surfaces_ || ratio != ratio_) surfaces_.emplace(*content_, view_, ratio);
-    ratio_ = ratio;
-    picture_ = drawPicture(*content_, look_, view_, backdrop_, ratio, *surfaces_);
   }
 
   std::shared_ptr<const SceneContent> content_;

@@ -17,19 +17,6 @@
 namespace boresight::ui {
 namespace {
 
-struct ShowEntry {
-  bool SceneShown::*member;
-  const char* name;
-};
-constexpr std::array<ShowEntry, 6> kShowEntries = {{
-    {&SceneShown::mesh, QT_TRANSLATE_NOOP("SceneView", "Mesh")},
-    {&SceneShown::mesh_edges, QT_TRANSLATE_NOOP("SceneView", "Edges of the mesh")},
-    {&SceneShown::frusta, QT_TRANSLATE_NOOP("SceneView", "Cameras")},
-    {&SceneShown::trail, QT_TRANSLATE_NOOP("SceneView", "Trail of the iterations")},
-    {&SceneShown::points, QT_TRANSLATE_NOOP("SceneView", "Template points")},
-    {&SceneShown::axes, QT_TRANSLATE_NOOP("SceneView", "Axes of the station")},
-}};
-
 QString nameOf(const char* name) { return QCoreApplication::translate("SceneView", name); }
 
 }  // namespace
@@ -84,22 +71,27 @@ void SceneView::buildBar() {
   connect(ui_.throughCamera, &QToolButton::toggled, navigation_,
           &SceneNavigation::setThroughCamera);
   connect(ui_.throughRole, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
-    setThroughRole(static_cast<PoseRole>(ui_.throughRole->currentData().toInt()));
+    role_ = static_cast<PoseRole>(ui_.throughRole->currentData().toInt());
+    updateView();
   });
 }
 
 /// What of the scene is drawn, and the opacity of the mesh.
 QMenu* SceneView::showMenu() {
   auto* menu = new QMenu(ui_.show);
-  for (const ShowEntry& entry : kShowEntries) {
-    QAction* action = menu->addAction(nameOf(entry.name));
+  for (const auto& [name, member] : {std::pair(tr("Mesh"), &SceneShown::mesh),
+                                     {tr("Edges of the mesh"), &SceneShown::mesh_edges},
+                                     {tr("Cameras"), &SceneShown::frusta},
+                                     {tr("Trail of the iterations"), &SceneShown::trail},
+                                     {tr("Template points"), &SceneShown::points},
+                                     {tr("Axes of the station"), &SceneShown::axes}}) {
+    QAction* action = menu->addAction(name);
     action->setCheckable(true);
-    action->setChecked(look_.shown.*entry.member);
-    connect(action, &QAction::toggled, this, [this, entry](bool on) {
-      look_.shown.*entry.member = on;
+    action->setChecked(look_.shown.*member);
+    connect(action, &QAction::toggled, this, [this, part = member](bool on) {
+      look_.shown.*part = on;
       updateLook();
     });
-    show_.push_back(action);
   }
   menu->addSeparator();
   opacity_ = new QSlider(Qt::Horizontal);
@@ -117,10 +109,10 @@ QMenu* SceneView::showMenu() {
 
 void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& snapper) {
   annotator_ = new SceneAnnotator(*canvas(), annotation, snapper);
-  overlay_->setOver(
-      [this](QPainter& painter) { annotator_->paint(painter, QRectF(overlay_->rect())); });
+  overlay_->paint_over = [this](QPainter& painter) {
+    annotator_->paint(painter, QRectF(overlay_->rect()));
+  };
   connect(annotator_, &SceneAnnotator::changed, this, [this] {
-    overlay_->update();
     updateNote();
     if (annotator_->places()) ui_.sceneReadout->setText(annotator_->place());
   });
@@ -134,12 +126,10 @@ void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& 
 void SceneView::refreshSoon() {
   if (refresh_pending_) return;
   refresh_pending_ = true;
-  QMetaObject::invokeMethod(
-      this,
-      [this] {
-        if (isVisible()) refresh();  // else when it is shown
-      },
-      Qt::QueuedConnection);
+  const auto refresh_if_visible = [this] {
+    if (isVisible()) refresh();  // else when it is shown
+  };
+  QMetaObject::invokeMethod(this, refresh_if_visible, Qt::QueuedConnection);
 }
 
 void SceneView::refresh() {
@@ -151,15 +141,14 @@ void SceneView::refresh() {
       after.frusta.push_back(std::move(frustum));
   content_ = std::make_shared<const SceneContent>(std::move(after));
   if (content_->one != before->one) {
-    overlay_->setAnnotation(std::nullopt);
-    overlay_->setHovered(std::nullopt);
+    overlay_->clicked.reset();
+    overlay_->hovered.reset();
     ui_.sceneReadout->setText(tr("Click a template, an annotation or a point of the mesh."));
     backdrop_ = QImage();
     backdrop_of_.reset();
   }
   navigation_->setContent(content_);
   canvas_->setContent(content_, look_);
-  overlay_->setContent(content_, look_);
   if (navigation_->throughCamera()) orderBackdrop();
   updateView();
 }
@@ -168,18 +157,6 @@ void SceneView::showThroughCamera() {
   ui_.throughCamera->setChecked(navigation_->throughCamera());
   if (navigation_->throughCamera()) orderBackdrop();
   updateLook();
-}
-
-void SceneView::setThroughRole(PoseRole role) {
-  if (role == role_) return;
-  role_ = role;
-  ui_.throughRole->setCurrentIndex(ui_.throughRole->findData(static_cast<int>(role)));
-  updateView();
-}
-
-void SceneView::setShown(const SceneShown& shown) {
-  for (std::size_t i = 0; i < show_.size(); ++i)
-    show_[i]->setChecked(shown.*kShowEntries[i].member);
 }
 
 void SceneView::setMeshOpacity(double opacity) {
@@ -195,7 +172,6 @@ void SceneView::updateLook() {
   const QSignalBlocker blocked(opacity_);
   opacity_->setValue(static_cast<int>(std::lround(100.0 * look_.mesh_opacity)));
   canvas_->setContent(content_, look_);
-  overlay_->setContent(content_, look_);
   updateView();
 }
 
@@ -213,7 +189,9 @@ void SceneView::updateView() {
     backdrop = Backdrop{backdrop_, navigation_->image().toWidget(
                                        QRectF(-0.5, -0.5, backdrop_.width(), backdrop_.height()))};
   canvas_->setView(view, backdrop);
-  overlay_->setView(view);
+  overlay_->content = content_;
+  overlay_->look = look_;
+  overlay_->view = view;
   if (annotator_) annotator_->setShot({content_, look_, view, backdrop});
   updateNote();
 }
@@ -255,7 +233,8 @@ void SceneView::updateNote() {
   }
   const QString step = annotator_ && !content_->empty() ? annotator_->nextStep() : QString();
   if (!step.isEmpty()) note = step;
-  overlay_->setNote(note);
+  overlay_->note = note;
+  overlay_->update();
 }
 
 void SceneView::showEvent(QShowEvent* event) {
@@ -293,13 +272,14 @@ void SceneView::pickInScene(const QPointF& pixel) {
       aim->text = tr("surface");
     }
   }
-  overlay_->setAnnotation(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
+  overlay_->clicked = aim ? std::optional(aim->point_in_station_m) : std::nullopt;
+  overlay_->update();
   ui_.sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
                                 : tr("No object there: click a template or a point of the mesh."));
 }
 
 void SceneView::hover(const QPointF& at) {
-  overlay_->setHovered(std::nullopt);  // of another view
+  showStationPlace(std::nullopt);  // of another view
   if (content_->empty()) return;
   const Viewpoint view = viewpoint();
   const auto surface = sessions::surfacePointAt(
@@ -308,7 +288,9 @@ void SceneView::hover(const QPointF& at) {
 }
 
 void SceneView::showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m) {
-  overlay_->setHovered(point_in_station_m);
+  if (point_in_station_m == overlay_->hovered) return;
+  overlay_->hovered = point_in_station_m;
+  overlay_->update();
 }
 
 }  // namespace boresight::ui

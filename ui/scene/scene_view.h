@@ -14,7 +14,6 @@
 #include "ui/scene/scene_navigation.h"
 #include "ui/state/view_state.h"
 
-class QAction;
 class QMenu;
 class QSlider;
 
@@ -50,9 +49,6 @@ class SceneView : public QWidget {
   /// Whether the image is drawn behind the mesh while looking through the camera.
   bool backdropReady() const { return navigation_->throughCamera() && !backdrop_.isNull(); }
 
-  /// Sets the pose for looking through the camera: kEstimate is the shown pose, nudged or not.
-  void setThroughRole(PoseRole role);
-  void setShown(const SceneShown& shown);
   void setMeshOpacity(double opacity);
   /// Shows the current view state at once, without waiting for the event loop.
   void refresh();
@@ -87,7 +83,6 @@ class SceneView : public QWidget {
   std::unique_ptr<SceneCanvas> canvas_;
   SceneNavigation* navigation_ = nullptr;
   SceneOverlay* overlay_ = nullptr;
-  std::vector<QAction*> show_;  ///< in the order of `kShowEntries`
   QSlider* opacity_ = nullptr;
   SceneAnnotator* annotator_ = nullptr;
 
@@ -96,7 +91,7 @@ class SceneView : public QWidget {
   QImage backdrop_;  ///< the case's image without lens distortion; null until it is computed
   std::weak_ptr<const sessions::LoadedCase> backdrop_of_;
   TaskRunner runner_;
-  PoseRole role_ = PoseRole::kEstimate;
+  PoseRole role_ = PoseRole::kEstimate;  ///< of the pose when looking through the camera
   double free_opacity_ = 1.0;
   double through_opacity_ = 0.35;
   bool refresh_pending_ = false;

@@ -11,13 +11,14 @@ namespace boresight::ui {
 namespace {
 
 /// A prepared pinhole of the canvas' size.
-Camera pinhole(const QSizeF& canvas, double focal_px, double cx, double cy) {
+Camera pinhole(const QSizeF& canvas, const QPointF& focal_px, const QPointF& centre) {
   Camera camera;
   camera.width = std::max(1, static_cast<int>(std::lround(canvas.width())));
   camera.height = std::max(1, static_cast<int>(std::lround(canvas.height())));
-  camera.fx = camera.fy = focal_px;
-  camera.cx = cx;
-  camera.cy = cy;
+  camera.fx = focal_px.x();
+  camera.fy = focal_px.y();
+  camera.cx = centre.x();
+  camera.cy = centre.y();
   if (prepareCamera(camera) != Status::kOk) camera.valid_radius = 0.0;
   return camera;
 }
@@ -39,10 +40,6 @@ Eigen::Vector3d Viewpoint::rayInStation(const QPointF& pixel) const {
 
 Eigen::Vector3d Viewpoint::eyeInStation_m() const {
   return view_from_station.inverse().translation_m;
-}
-
-double distance_px(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
 }
 
 void OrbitCamera::frame(const BoundingBox& bounds) {
@@ -80,16 +77,14 @@ void OrbitCamera::roll(double angle_rad) {
 
 void OrbitCamera::pan(const QPointF& pixels, double canvas_height) {
   const Eigen::Matrix3d station_from_view = viewFromStation().transpose();
-  target_m_ -= metresPerPixel(canvas_height) *
+  const double metres_per_pixel =
+      2.0 * distance_m_ * std::tan(0.5 * kFieldOfView_rad) / std::max(canvas_height, 1.0);
+  target_m_ -= metres_per_pixel *
                (station_from_view.col(0) * pixels.x() + station_from_view.col(1) * pixels.y());
 }
 
 void OrbitCamera::dolly(double factor) {
   distance_m_ = std::clamp(distance_m_ * factor, 1e-3 * radius_m_, 1e3 * radius_m_);
-}
-
-double OrbitCamera::metresPerPixel(double canvas_height) const {
-  return 2.0 * distance_m_ * std::tan(0.5 * kFieldOfView_rad) / std::max(canvas_height, 1.0);
 }
 
 Eigen::Matrix3d OrbitCamera::viewFromStation() const {
@@ -112,8 +107,9 @@ Viewpoint OrbitCamera::viewpoint(const QSizeF& canvas) const {
       Eigen::Vector3d(0.0, 0.0, distance_m_) - rotation * target_m_;
   // The field of view is that of the smaller side, so that a narrow canvas shows the scene too.
   const double side = std::max(1.0, std::min(canvas.width(), canvas.height()));
-  view.camera = pinhole(canvas, 0.5 * side / std::tan(0.5 * kFieldOfView_rad),
-                        0.5 * (canvas.width() - 1.0), 0.5 * (canvas.height() - 1.0));
+  const double focal_px = 0.5 * side / std::tan(0.5 * kFieldOfView_rad);
+  view.camera = pinhole(canvas, {focal_px, focal_px},
+                        {0.5 * (canvas.width() - 1.0), 0.5 * (canvas.height() - 1.0)});
   return view;
 }
 
@@ -121,12 +117,8 @@ Viewpoint throughCamera(const Camera& camera, const Pose& camera_from_station,
                         const ViewTransform& image, const QSizeF& canvas) {
   // A canvas pixel's centre (u, v) lies at (u + 0.5, v + 0.5) in the canvas' coordinates.
   const QPointF centre = image.toWidget(QPointF(camera.cx, camera.cy));
-  Viewpoint view;
-  view.view_from_station = camera_from_station;
-  view.camera = pinhole(canvas, camera.fx * image.scale(), centre.x() - 0.5, centre.y() - 0.5);
-  view.camera.fy = camera.fy * image.scale();
-  if (prepareCamera(view.camera) != Status::kOk) view.camera.valid_radius = 0.0;
-  return view;
+  return {camera_from_station, pinhole(canvas, image.scale() * QPointF(camera.fx, camera.fy),
+                                       centre - QPointF(0.5, 0.5))};
 }
 
 }  // namespace boresight::ui

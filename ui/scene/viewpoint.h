@@ -27,9 +27,6 @@ struct Viewpoint {
   Eigen::Vector3d eyeInStation_m() const;
 };
 
-/// Between two pixels of the canvas.
-double distance_px(const QPointF& a, const QPointF& b);
-
 /// The fixed directions to look from. "Front" looks along the station's +y.
 enum class StandardView { kTop, kBottom, kFront, kBack, kLeft, kRight, kOblique };
 
@@ -60,7 +57,6 @@ class OrbitCamera {
 
  private:
   Eigen::Matrix3d viewFromStation() const;
-  double metresPerPixel(double canvas_height) const;
 
   Eigen::Vector3d target_m_ = Eigen::Vector3d::Zero();
   double radius_m_ = 1.0;  ///< of the scene

@@ -172,12 +172,7 @@ class VtkCanvas final : public SceneCanvas {
 
   void fillLines() {
     ColoredLines lines;
-    const MeshView mesh = content_->mesh();
-    const auto vertex = [&mesh](std::int32_t i) -> Eigen::Vector3d {
-      return mesh.vertices_in_station_m[static_cast<std::size_t>(i)].cast<double>();
-    };
-    for (const auto& ends : sharp_edges_)
-      lines.push_back({{vertex(ends[0]), vertex(ends[1])}, look_.mesh_lines});
+    for (const SceneLine& edge : sharp_edges_) lines.push_back({edge, look_.mesh_lines});
     mesh_lines_.set(lines);
 
     for (std::size_t role = 0; role < frusta_.size(); ++role) {
@@ -187,19 +182,8 @@ class VtkCanvas final : public SceneCanvas {
           for (const SceneLine& line : frustum.lines) lines.push_back({line, frustum.color});
       frusta_[role].set(lines);
     }
-
-    lines.clear();
-    for (int axis = 0; axis < 3; ++axis)
-      lines.push_back(
-          {{Eigen::Vector3d::Zero(), content_->axis_length_m * Eigen::Vector3d::Unit(axis)},
-           axisColor(axis)});
-    axes_.set(content_->empty() ? ColoredLines() : lines);
-
-    lines.clear();
-    for (std::size_t i = 1; i < content_->trail_m.size(); ++i)
-      lines.push_back({{content_->trail_m[i - 1], content_->trail_m[i]},
-                       poseRoleStyle(PoseRole::kEstimate).color.darker(120)});
-    trail_.set(lines);
+    axes_.set(axisLines(*content_));
+    trail_.set(trailLines(*content_));
   }
 
   void fillPoints() {
@@ -285,7 +269,7 @@ class VtkCanvas final : public SceneCanvas {
   const std::array<Cloud*, 6> clouds_ = {&inliers_,  &outliers_,     &unmatched_,
                                          &selected_, &trail_points_, &trail_now_};
   std::shared_ptr<const SceneContent> content_;
-  std::vector<std::array<std::int32_t, 2>> sharp_edges_;
+  std::vector<SceneLine> sharp_edges_;
   SceneLook look_;
   Viewpoint view_;
 };

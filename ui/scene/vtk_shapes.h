@@ -44,9 +44,6 @@ class BackdropActor {
   qint64 key_ = 0;  ///< of the picture in the texture
 };
 
-/// Lines of one colour each.
-using ColoredLines = std::vector<std::pair<SceneLine, QColor>>;
-
 /// Three crossed bars: the shape of an outlier, the same from every side.
 vtkNew<vtkPolyData> crossShape();
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/style/icons.h"
 
-#include <array>
-#include <cctype>
-#include <cstdlib>
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <string>
 
 #include <QIconEngine>
 #include <QPainter>
@@ -37,8 +38,10 @@ constexpr const char* kPaths[] = {
     "M 8 3 L 8 13 M 3 8 L 13 8",
     "M 2.5 3.5 L 13.5 3.5 L 9.3 8.5 L 9.3 13 L 6.7 11.6 L 6.7 8.5 Z",
     "M 2 4 L 6.5 4 L 8 5.8 L 14 5.8 L 14 13 L 2 13 Z",
-    "M 3 4.5 L 13 4.5 M 6 4.5 L 6 2.8 L 10 2.8 L 10 4.5 M 4.2 4.5 L 4.8 13.5 L 11.2 13.5 L 11.8 4.5",
-    "M 2.5 3 L 13.5 3 L 13.5 13 L 2.5 13 Z O 6 6.3 1.2 M 2.5 12 L 7 8.8 L 9 10.4 L 11 8.4 L 13.5 10.6",
+    "M 3 4.5 L 13 4.5 M 6 4.5 L 6 2.8 L 10 2.8 L 10 4.5 M 4.2 4.5 L 4.8 13.5 L 11.2 13.5 L 11.8 "
+    "4.5",
+    "M 2.5 3 L 13.5 3 L 13.5 13 L 2.5 13 Z O 6 6.3 1.2 M 2.5 12 L 7 8.8 L 9 10.4 L 11 8.4 L 13.5 "
+    "10.6",
     "M 2 5 L 5 5 L 6.2 3.3 L 9.8 3.3 L 11 5 L 14 5 L 14 12.7 L 2 12.7 Z O 8 8.7 2.4",
     "M 8 2 L 13.2 5 L 13.2 11 L 8 14 L 2.8 11 L 2.8 5 Z M 2.8 5 L 8 8 L 13.2 5 M 8 8 L 8 14",
     "O 8 8 4.6 M 8 1.5 L 8 5 M 8 11 L 8 14.5 M 1.5 8 L 5 8 M 11 8 L 14.5 8",
@@ -47,13 +50,13 @@ constexpr const char* kPaths[] = {
     "M 4 14 L 4 2.5 L 12.5 2.5 L 10.5 5.5 L 12.5 8.5 L 4 8.5",
     "M 6 3.5 L 10.5 8 L 6 12.5",
     "M 2 3 L 14 3 L 14 13 L 2 13 Z M 9.5 3 L 9.5 13",
-    "M 4 2.5 L 4 12.5 L 6.8 9.8 L 9 14 L 10.6 13.2 L 8.6 9.2 L 12.3 9.2 Z",
     "M 2.5 5.5 L 2.5 2.5 L 5.5 2.5 M 10.5 2.5 L 13.5 2.5 L 13.5 5.5 M 13.5 10.5 L 13.5 13.5 "
     "L 10.5 13.5 M 5.5 13.5 L 2.5 13.5 L 2.5 10.5 M 5.5 5.5 L 10.5 5.5 L 10.5 10.5 L 5.5 10.5 Z",
     "M 3 5 L 4.5 4 L 4.5 12 M 8 6 L 8 6.4 M 8 10 L 8 10.4 M 11 5 L 12.5 4 L 12.5 12",
     "M 2.5 10.5 L 10.5 2.5 L 13.5 5.5 L 5.5 13.5 Z M 5 8 L 6.5 9.5 M 7 6 L 8 7 M 9 4 L 10.5 5.5",
     "M 1.5 8 L 4 5 L 8 3.5 L 12 5 L 14.5 8 L 12 11 L 8 12.5 L 4 11 Z O 8 8 2",
-    "M 2.5 3 L 13.5 3 L 13.5 13 L 2.5 13 Z M 8 1.5 L 8 14.5 M 10.5 6 L 12 8 L 10.5 10 M 5.5 6 L 4 8 "
+    "M 2.5 3 L 13.5 3 L 13.5 13 L 2.5 13 Z M 8 1.5 L 8 14.5 M 10.5 6 L 12 8 L 10.5 10 M 5.5 6 L 4 "
+    "8 "
     "L 5.5 10",
     "M 8 2.5 L 14 5.5 L 8 8.5 L 2 5.5 Z M 2 8.2 L 8 11.2 L 14 8.2 M 2 10.8 L 8 13.8 L 14 10.8",
     "M 2 3 L 7 3 L 7 13 L 2 13 Z M 9 3 L 14 3 L 14 13 L 9 13 Z",
@@ -66,29 +69,17 @@ static_assert(std::size(kPaths) == static_cast<std::size_t>(Icon::kFloat) + 1);
 
 QPainterPath pathOf(const char* text) {
   QPainterPath path;
-  char command = 0;
-  const auto number = [&text] {
-    char* end = nullptr;
-    const double value = std::strtod(text, &end);
-    text = end;
-    return value;
-  };
-  while (*text != '\0') {
-    if (*text == ' ') {
-      ++text;
-      continue;
-    }
-    command = *text++;
-    if (command == 'Z') {
-      path.closeSubpath();
-      continue;
-    }
-    const double x = number();
-    const double y = number();
-    if (command == 'M') path.moveTo(x, y);
-    if (command == 'L') path.lineTo(x, y);
-    if (command == 'O') {
-      const double radius = number();
+  std::istringstream words(text);
+  for (std::string command; words >> command;) {
+    double x = 0.0;
+    double y = 0.0;
+    if (command != "Z") words >> x >> y;
+    if (command == "Z") path.closeSubpath();
+    if (command == "M") path.moveTo(x, y);
+    if (command == "L") path.lineTo(x, y);
+    if (command == "O") {
+      double radius = 0.0;
+      words >> radius;
       path.addEllipse(QPointF(x, y), radius, radius);
     }
   }

@@ -41,7 +41,6 @@ enum class Icon {
   kFlag,
   kNext,
   kSidePane,
-  kSelect,
   kFit,
   kOneToOne,
   kRuler,
@@ -58,7 +57,7 @@ inline constexpr QSize kButtonIcon(kIcon + 6, kIcon);
 
 /// An icon in a colour of the theme in use when it is drawn; disabled: the colour of hints.
 QIcon iconOf(Icon icon, QRgb Theme::*color = &Theme::text);
-/// A picture of a list; the style would tint it where its row is chosen.
+/// The icon of a picture in a list; it is not tinted where its row is selected.
 QIcon pictureIcon(const QImage& picture);
 /// An icon for the overlay on the image, which is dark in every theme.
 QIcon overlayIcon(Icon icon);

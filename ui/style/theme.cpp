@@ -13,40 +13,13 @@ namespace {
 constexpr const char* kThemeKey = "theme";
 ThemeName applied = ThemeName::kLight;
 
-using Role = QRgb Theme::*;
-
-constexpr std::pair<const char*, Role> kNames[] = {
-    {"window", &Theme::window},
-    {"panel", &Theme::panel},
-    {"alt", &Theme::alt},
-    {"lineStrong", &Theme::line_strong},
-    {"line", &Theme::line},
-    {"text2", &Theme::text2},
-    {"text3", &Theme::text3},
-    {"text", &Theme::text},
-    {"accentTint", &Theme::accent_tint},
-    {"accent", &Theme::accent},
-    {"onAccent", &Theme::on_accent},
-    {"successTint", &Theme::success_tint},
-    {"successText", &Theme::success_text},
-    {"success", &Theme::success},
-    {"failureTint", &Theme::failure_tint},
-    {"failureText", &Theme::failure_text},
-    {"failure", &Theme::failure},
-    {"warningTint", &Theme::warning_tint},
-    {"warningText", &Theme::warning_text},
-    {"warning", &Theme::warning},
-    {"canvas", &Theme::canvas},
-    {"overlayLine", &Theme::overlay_line},
-    {"overlay", &Theme::overlay},
-};
-
 QString styleSheet(const Theme& colors) {
   QFile file(QStringLiteral(":/style/boresight.qss"));
   if (!file.open(QIODevice::ReadOnly)) return {};
   QString sheet = QString::fromUtf8(file.readAll());
-  for (const auto& [name, role] : kNames)
-    sheet.replace(QStringLiteral("@%1@").arg(QLatin1String(name)), QColor(colors.*role).name());
+  for (const ThemeColor& color : kThemeColors)
+    sheet.replace(QStringLiteral("@%1@").arg(QLatin1String(color.name)),
+                  QColor(colors.*color.member).name());
   return sheet;
 }
 

@@ -36,57 +36,46 @@ struct Theme {
   QRgb overlay_line;  ///< their borders
 };
 
-inline constexpr Theme kLightTheme = {
-    .window = 0xF1F2F4,
-    .panel = 0xFFFFFF,
-    .alt = 0xF7F8F9,
-    .line = 0xD7DBE0,
-    .line_strong = 0xB9C0C8,
-    .text = 0x1B1F24,
-    .text2 = 0x555E68,
-    .text3 = 0x7A838D,
-    .accent = 0x0B62C4,
-    .accent_tint = 0xE5EFFA,
-    .on_accent = 0xFFFFFF,
-    .success = 0x009E73,
-    .success_tint = 0xE3F4EE,
-    .success_text = 0x00684C,
-    .failure = 0xD55E00,
-    .failure_tint = 0xFCEBDD,
-    .failure_text = 0xA64900,
-    .warning = 0xE69F00,
-    .warning_tint = 0xFDF3DC,
-    .warning_text = 0x7A5200,
-    .canvas = 0x292B2E,
-    .overlay = 0x1C1D20,
-    .overlay_line = 0x45494F,
+/// A colour in both themes, with its name in the style sheet.
+struct ThemeColor {
+  const char* name;
+  QRgb Theme::*member;
+  QRgb light;
+  QRgb dark;
+};
+inline constexpr ThemeColor kThemeColors[] = {
+    {"window", &Theme::window, 0xF1F2F4, 0x1E2023},
+    {"panel", &Theme::panel, 0xFFFFFF, 0x26282C},
+    {"alt", &Theme::alt, 0xF7F8F9, 0x2C2F33},
+    {"line", &Theme::line, 0xD7DBE0, 0x3A3E44},
+    {"lineStrong", &Theme::line_strong, 0xB9C0C8, 0x535960},
+    {"text", &Theme::text, 0x1B1F24, 0xE8EAED},
+    {"text2", &Theme::text2, 0x555E68, 0xAEB5BD},
+    {"text3", &Theme::text3, 0x7A838D, 0x8B939C},
+    {"accent", &Theme::accent, 0x0B62C4, 0x4A9EF2},
+    {"accentTint", &Theme::accent_tint, 0xE5EFFA, 0x1F3650},
+    {"onAccent", &Theme::on_accent, 0xFFFFFF, 0x0E1620},
+    {"success", &Theme::success, 0x009E73, 0x1FBF92},
+    {"successTint", &Theme::success_tint, 0xE3F4EE, 0x17362D},
+    {"successText", &Theme::success_text, 0x00684C, 0x5FD9B4},
+    {"failure", &Theme::failure, 0xD55E00, 0xF0813A},
+    {"failureTint", &Theme::failure_tint, 0xFCEBDD, 0x412A1A},
+    {"failureText", &Theme::failure_text, 0xA64900, 0xFFB380},
+    {"warning", &Theme::warning, 0xE69F00, 0xE69F00},
+    {"warningTint", &Theme::warning_tint, 0xFDF3DC, 0x3D3116},
+    {"warningText", &Theme::warning_text, 0x7A5200, 0xF5CC70},
+    {"canvas", &Theme::canvas, 0x292B2E, 0x141517},
+    {"overlay", &Theme::overlay, 0x1C1D20, 0x1C1D20},
+    {"overlayLine", &Theme::overlay_line, 0x45494F, 0x45494F},
 };
 
-inline constexpr Theme kDarkTheme = {
-    .window = 0x1E2023,
-    .panel = 0x26282C,
-    .alt = 0x2C2F33,
-    .line = 0x3A3E44,
-    .line_strong = 0x535960,
-    .text = 0xE8EAED,
-    .text2 = 0xAEB5BD,
-    .text3 = 0x8B939C,
-    .accent = 0x4A9EF2,
-    .accent_tint = 0x1F3650,
-    .on_accent = 0x0E1620,
-    .success = 0x1FBF92,
-    .success_tint = 0x17362D,
-    .success_text = 0x5FD9B4,
-    .failure = 0xF0813A,
-    .failure_tint = 0x412A1A,
-    .failure_text = 0xFFB380,
-    .warning = 0xE69F00,
-    .warning_tint = 0x3D3116,
-    .warning_text = 0xF5CC70,
-    .canvas = 0x141517,
-    .overlay = 0x1C1D20,
-    .overlay_line = 0x45494F,
-};
+constexpr Theme themeOf(QRgb ThemeColor::*column) {
+  Theme theme = {};
+  for (const ThemeColor& color : kThemeColors) theme.*color.member = color.*column;
+  return theme;
+}
+inline constexpr Theme kLightTheme = themeOf(&ThemeColor::light);
+inline constexpr Theme kDarkTheme = themeOf(&ThemeColor::dark);
 
 /// Badges of a case's state, each with its own icon. The same in both themes.
 inline constexpr QRgb kBadgeNew = 0x8A929B;
@@ -165,9 +154,6 @@ struct Measures {
 inline constexpr int kWideWindow = 1600;  ///< from this width on the wide measures apply
 inline constexpr Measures kWide = {96, 64, 416, 616, 464, 304};
 inline constexpr Measures kNarrow = {64, 48, 360, 360, 392, 64};
-constexpr const Measures& measuresFor(int window_width) {
-  return window_width >= kWideWindow ? kWide : kNarrow;
-}
 
 /// Fonts, the first one available; sizes in points. The program includes its own.
 inline constexpr std::array<const char*, 4> kFontFamilies = {"Inter Tabular", "Inter", "Noto Sans",

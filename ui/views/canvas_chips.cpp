@@ -7,6 +7,7 @@
 
 #include "ui/style/tokens.h"
 #include "ui/views/image_view.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -43,12 +44,11 @@ QString overlaySheet() {
 CanvasChips::CanvasChips(ImageView& view)
     : QObject(&view),
       view_(view),
-      tools_(new QToolBar(&view)),
+      tools_(named(new QToolBar(&view), "canvasTools")),
       title_(chip("titleChip")),
       shown_(chip("shownChip")),
       zoom_(chip("zoomChip")) {
   view.setStyleSheet(overlaySheet());
-  tools_->setObjectName(QStringLiteral("canvasTools"));
   tools_->setOrientation(Qt::Vertical);
   tools_->setIconSize({kToolIcon, kToolIcon});
   tools_->setMovable(false);
@@ -60,8 +60,7 @@ CanvasChips::CanvasChips(ImageView& view)
 }
 
 QLabel* CanvasChips::chip(const char* name) {
-  auto* label = new QLabel(&view_);
-  label->setObjectName(QLatin1String(name));
+  auto* label = named(new QLabel(&view_), name);
   label->setAttribute(Qt::WA_TransparentForMouseEvents);
   return label;
 }

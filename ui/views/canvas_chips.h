@@ -24,7 +24,7 @@ class CanvasChips : public QObject {
   void setTitle(const QString& text);
   /// "Iteration 1.4, refine"; empty hides it.
   void setShown(const QString& text);
-  /// Lies in the lower left corner.
+  /// Sets the widget of the lower left corner.
   void setLegend(QWidget* legend);
 
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -9,7 +9,6 @@
 #include "sessions/review/run_difference.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/rig_links.h"
-#include "sessions/trace/scene_render.h"
 #include "ui/models/text.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -17,6 +16,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/overlay_painters.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -51,16 +51,11 @@ CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state
       document_(document),
       state_(state),
       tasks_(tasks),
-      box_(new QComboBox),
-      view_(new ImageView) {
-  box_->setObjectName(QStringLiteral("compareWith"));
-  box_->setToolTip(tr("What the second canvas shows"));
-  view_->setObjectName(QStringLiteral("compareView"));
+      box_(named(new QComboBox, "compareWith", tr("What the second canvas shows"))),
+      view_(named(new ImageView, "compareView")) {
   view_->setHint(tr("Reading ..."));
-  view_->setOverlay(this, [this](QPainter& painter) { paintDifference(painter); });
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(view_);
+  view_->addOverlay(this, [this](QPainter& painter) { paintDifference(painter); });
+  withoutMargins(new QVBoxLayout(this))->addWidget(view_);
   box_->setParent(view_);  // so that both images lie alike
   box_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   box_->move(kBoxMargin, kBoxMargin);
@@ -68,28 +63,25 @@ CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state
   ImageView& main = image_.view();
   connect(&main, &ImageView::transformChanged, this, [this] { follow(*view_, image_.view()); });
   connect(view_, &ImageView::transformChanged, this, [this] { follow(image_.view(), *view_); });
-  connect(&main, &ImageView::cursorMoved, this, &CompareView::pointAt);
+  connect(&main, &ImageView::cursorMoved, this, [this](const QPointF& pixel) {
+    if (isVisible() && picture_.loaded_case == state_.currentCase()) view_->setLinkedCursor(pixel);
+  });
   connect(&main, &ImageView::cursorLeft, this, [this] { view_->setLinkedCursor(std::nullopt); });
   connect(view_, &ImageView::cursorMoved, this, [this](const QPointF& pixel) {
     view_->setLinkedCursor(std::nullopt);
-    if (picture_.loaded_case && state_.currentCase() &&
-        picture_.loaded_case->source.id == state_.currentCase()->source.id)
-      image_.view().setLinkedCursor(pixel);
+    if (picture_.loaded_case && !showsOtherCase()) image_.view().setLinkedCursor(pixel);
   });
   connect(view_, &ImageView::cursorLeft, this,
           [this] { image_.view().setLinkedCursor(std::nullopt); });
   // The rig's other camera follows the station under the pointer.
-  connect(
-      &image_, &ImagePanel::stationPlaceHovered, this,
-      [this](const std::optional<Eigen::Vector3d>& place) {
-        const auto& shown = state_.currentCase();
-        if (!picture_.loaded_case || !shown || picture_.loaded_case->source.id == shown->source.id)
-          return;
-        Eigen::Vector2d pixel;
-        const bool seen = place && project(picture_.loaded_case->source.camera,
-                                           picture_.camera_from_station * *place, pixel);
-        view_->setLinkedCursor(seen ? std::optional(pointOf(pixel)) : std::nullopt);
-      });
+  connect(&image_, &ImagePanel::stationPlaceHovered, this,
+          [this](const std::optional<Eigen::Vector3d>& place) {
+            if (!showsOtherCase()) return;
+            Eigen::Vector2d pixel;
+            const bool seen = place && project(picture_.loaded_case->source.camera,
+                                               picture_.camera_from_station * *place, pixel);
+            view_->setLinkedCursor(seen ? std::optional(pointOf(pixel)) : std::nullopt);
+          });
   state_.onChange(ViewChange::kCase | ViewChange::kSnapshot, this, &CompareView::fill);
   hide();
 }
@@ -115,25 +107,21 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
   const ViewState::SnapshotPtr& shown_run = state_.snapshot();
   for (auto run = runs.rbegin(); run != runs.rend(); ++run)
     if (run->case_id == shown->id && !(shown_run && run->digest == shown_run->digest))
-      choices.push_back({tr("Run of %1: %2").arg(timeText(run->time), fromText(run->status)),
-                         run->status == "converged" ? kPoseLine : kRejectedLine,
-                         std::nullopt,
-                         *run,
-                         {}});
+      choices.push_back(
+          {.name = tr("Run of %1: %2").arg(timeText(run->time), fromText(run->status)),
+           .line = run->status == "converged" ? kPoseLine : kRejectedLine,
+           .run = *run});
   if (const auto seed = poseOf(state_, PoseRole::kSeed))
-    choices.push_back({tr("Seed"), kSeedLine, seed, std::nullopt, {}});
+    choices.push_back({.name = tr("Seed"), .line = kSeedLine, .camera_from_station = seed});
   if (const auto truth = poseOf(state_, PoseRole::kTruth))
-    choices.push_back({tr("Truth"), kTruthLine, truth, std::nullopt, {}});
+    choices.push_back({.name = tr("Truth"), .line = kTruthLine, .camera_from_station = truth});
   if (onboard_)
-    choices.push_back({tr("Onboard run"),
-                       isRejected(*onboard_) ? kRejectedLine : kPoseLine,
-                       onboard_->lastPose(),
-                       std::nullopt,
-                       {},
-                       true});
+    choices.push_back({.name = tr("Onboard run"),
+                       .line = isRejected(*onboard_) ? kRejectedLine : kPoseLine,
+                       .camera_from_station = onboard_->lastPose(),
+                       .onboard = true});
   for (const std::string& id : sessions::casesOfRig(document_.session(), shown->id))
-    choices.push_back(
-        {tr("Camera of %1").arg(fromText(id)), kPoseLine, std::nullopt, std::nullopt, id});
+    choices.push_back({.name = tr("Camera of %1").arg(fromText(id)), .case_id = id});
   return choices;
 }
 
@@ -173,11 +161,9 @@ void CompareView::order() {
   tasks_.cancel(comparisonTask());
   Q_EMIT chosen(index < choices_.size() && choices_[index].onboard);
   if (!shown || index >= choices_.size()) return view_->setImage({});
-  const sessions::SessionCase* other = choices_[index].case_id.empty()
-                                           ? nullptr
-                                           : document_.session().findCase(choices_[index].case_id);
   std::optional<sessions::SessionCase> other_case;
-  if (other) other_case = *other;
+  if (const auto* other = document_.session().findCase(choices_[index].case_id))
+    other_case = *other;
   tasks_.start(
       comparisonTask(),
       [shown, choice = choices_[index], other_case, pose = state_.shownPose(),
@@ -194,27 +180,22 @@ void CompareView::order() {
           picture.loaded_case = sessions::loadCase(*other_case);
           picture.camera_from_station = *sessions::linkOfRig(shown->source, *other_case) * pose;
         }
-        sessions::RenderTrace render;
-        const Status status = sessions::renderScene(picture.loaded_case->source.camera,
-                                                    picture.loaded_case->scene.view(),
-                                                    picture.camera_from_station, render);
-        if (status == Status::kOk) picture.lines = linesOf(render, 0);
+        picture.lines = linesOf(*picture.loaded_case, picture.camera_from_station);
         return picture;
       },
-      [this](const Picture& picture) { take(picture); });
+      [this](Picture picture) { take(std::move(picture)); });
 }
 
-void CompareView::take(const Picture& picture) {
-  picture_ = picture;
+void CompareView::take(Picture picture) {
+  picture_ = std::move(picture);
   // As the operator sees the other canvas; another image as the algorithm sees it.
-  const bool same = state_.currentCase() == picture.loaded_case;
+  const auto& compared = picture_.loaded_case;
+  const bool same = state_.currentCase() == compared;
   following_ = true;  // the operator's part of the image stays
-  view_->setImage(same ? image_.display().picture() : grayImage(picture.loaded_case->image.view()));
+  view_->setImage(same ? image_.display().picture() : grayImage(compared->image.view()));
   following_ = false;
-  Layer layer = view_->layer(LayerId::kIterationEdges);
-  layer.lines = picture.lines;
-  layer.line = picture.line;
-  view_->setLayer(std::move(layer));
+  view_->setPart(LayerId::kIterationEdges, &Layer::lines, picture_.lines);
+  view_->setPart(LayerId::kIterationEdges, &Layer::line, picture_.line);
   follow(*view_, image_.view());
 }
 
@@ -222,12 +203,8 @@ void CompareView::take(const Picture& picture) {
 void CompareView::follow(ImageView& follower, const ImageView& leader) {
   if (following_ || !isVisible() || follower.imageSize().isEmpty() || leader.imageSize().isEmpty())
     return;
-  following_ = true;
-  if (leader.isFitted()) {
-    follower.fit();
-    following_ = false;
-    return;
-  }
+  const QScopedValueRollback<bool> once(following_, true);
+  if (leader.isFitted()) return follower.fit();
   const QPointF centre = leader.transform().toPixel(QPointF(leader.rect().center()));
   const QSizeF from = leader.imageSize();
   const QSizeF to = follower.imageSize();
@@ -237,7 +214,6 @@ void CompareView::follow(ImageView& follower, const ImageView& leader) {
       {centre.x() * to.width() / from.width(), centre.y() * to.height() / from.height()},
       follower.size());
   follower.setTransform(transform);
-  following_ = false;
 }
 
 /// In the lower left corner; options without room are counted.
@@ -256,8 +232,10 @@ void CompareView::paintDifference(QPainter& painter) const {
   }
 }
 
-void CompareView::pointAt(const QPointF& pixel) {
-  if (isVisible() && picture_.loaded_case == state_.currentCase()) view_->setLinkedCursor(pixel);
+/// The image of another camera of the rig.
+bool CompareView::showsOtherCase() const {
+  const auto& shown = state_.currentCase();
+  return picture_.loaded_case && shown && picture_.loaded_case->source.id != shown->source.id;
 }
 
 void CompareView::showEvent(QShowEvent* event) {

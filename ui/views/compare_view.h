@@ -53,11 +53,11 @@ class CompareView : public QWidget {
  private:
   /// One choice to compare with: a pose of this case, a run whose pose is to be read, or a camera.
   struct Choice {
-    QString name;
+    QString name = {};
     LineToken line = kPoseLine;
-    std::optional<Pose> camera_from_station;
-    std::optional<sessions::RunRecord> run;
-    std::string case_id;  ///< of another camera
+    std::optional<Pose> camera_from_station = {};
+    std::optional<sessions::RunRecord> run = {};
+    std::string case_id = {};  ///< of another camera
     bool onboard = false;
   };
   /// The picture of a choice.
@@ -74,9 +74,9 @@ class CompareView : public QWidget {
   template <class Wanted>
   void choose(const Wanted& wanted);
   void order();
-  void take(const Picture& picture);
+  void take(Picture picture);
+  bool showsOtherCase() const;
   void follow(ImageView& follower, const ImageView& leader);
-  void pointAt(const QPointF& pixel);
   void paintDifference(QPainter& painter) const;
 
   ImagePanel& image_;

@@ -19,6 +19,13 @@ QImage grayImage(const boresight::ImageView& image) {
       .copy();
 }
 
+namespace {
+
+/// The share of the samples that an automatic stretch makes black, and white.
+constexpr double kClippedShare = 0.005;
+
+}  // namespace
+
 GrayLevels fullLevels(const ImageSamples& samples) { return {0, (1 << samples.sample_bits) - 1}; }
 
 GrayLevels automaticLevels(const ImageSamples& samples) {
@@ -81,20 +88,18 @@ namespace {
 
 struct ReadSamples {
   DisplayImage::SamplesPtr samples;
-  sessions::GrayLevels automatic;
+  GrayLevels automatic;
   std::vector<int> histogram;
 };
 
 ReadSamples readFor(const sessions::ImageInput& input) {
-  auto samples = std::make_shared<const sessions::ImageSamples>(
+  const auto samples = std::make_shared<const ImageSamples>(
       sessions::readSamples(input.source.file, input.eight_bit.bayer));
   if (samples->file_sha256 != input.source.sha256)
     throw sessions::InputError(
         input.source.file,
         "the file has changed since the session was opened; stretching is not possible");
-  const sessions::GrayLevels automatic = automaticLevels(*samples);
-  std::vector<int> histogram = histogramOf(*samples);
-  return {std::move(samples), automatic, std::move(histogram)};
+  return {samples, automaticLevels(*samples), histogramOf(*samples)};
 }
 
 }  // namespace
@@ -126,15 +131,11 @@ void DisplayImage::showCase() {
         if (!case_ || !(case_->source.image.source == source)) return;
         automatic_ = read.automatic;
         histogram_ = std::move(read.histogram);
-        takeSamples(std::move(read.samples));
+        samples_ = std::move(read.samples);
+        levels_ = firstLevels(*samples_, automatic_);
+        Q_EMIT levelsChanged();
+        makePicture();
       });
-}
-
-void DisplayImage::takeSamples(SamplesPtr samples) {
-  samples_ = std::move(samples);
-  levels_ = firstLevels(*samples_, automatic_);
-  Q_EMIT levelsChanged();
-  makePicture();
 }
 
 void DisplayImage::setShowsCore(bool shows_core) {
@@ -144,12 +145,11 @@ void DisplayImage::setShowsCore(bool shows_core) {
   makePicture();
 }
 
-void DisplayImage::setLevels(const sessions::GrayLevels& levels) {
+void DisplayImage::setLevels(const GrayLevels& levels) {
   if (!samples_) return;
   const int largest = fullLevels(*samples_).white;
-  sessions::GrayLevels next;
-  next.black = std::clamp(levels.black, 0, largest - 1);
-  next.white = std::clamp(levels.white, next.black + 1, largest);
+  const int black = std::clamp(levels.black, 0, largest - 1);
+  const GrayLevels next = {black, std::clamp(levels.white, black + 1, largest)};
   if (next == levels_) return;
   levels_ = next;
   Q_EMIT levelsChanged();

@@ -20,9 +20,6 @@ class TaskRunner;
 /// A copy of an image's 8-bit pixels.
 QImage grayImage(const boresight::ImageView& image);
 
-/// The share of the samples that an automatic stretch makes black, and white.
-inline constexpr double kClippedShare = 0.005;
-
 /// Levels between which all but the darkest and the brightest samples lie; for a uniform image some
 /// distinct levels.
 sessions::GrayLevels automaticLevels(const sessions::ImageSamples& samples);
@@ -41,7 +38,7 @@ sessions::GrayLevels fullLevels(const sessions::ImageSamples& samples);
 /// The file's own value at a pixel inside: integers unchanged, others with six digits.
 QString sampleText(const sessions::ImageSamples& samples, int x, int y);
 
-/// For display only.
+/// The samples stretched between two levels, for display only.
 QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLevels& levels);
 
 /// The current case's image as displayed: the 8-bit pixels that the core uses, or the file's
@@ -79,7 +76,6 @@ class DisplayImage : public QObject {
 
  private:
   void showCase();
-  void takeSamples(SamplesPtr samples);
   void makePicture();
   void setPicture(const QImage& picture);
 

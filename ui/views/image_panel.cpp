@@ -6,8 +6,7 @@
 
 #include <QtWidgets>
 
-#include "sessions/trace/run_headline.h"
-#include "sessions/trace/scene_render.h"
+#include "sessions/trace/run_text.h"
 #include "sessions/trace/surface_point.h"
 #include "ui/models/text.h"
 #include "ui/run/task_runner.h"
@@ -17,20 +16,15 @@
 #include "ui/views/image_view.h"
 #include "ui/views/layer_legend.h"
 #include "ui/views/measure_tool.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr int kBlinkMs = 500;
 using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
+using Marks = std::vector<Mark>;
 using MapsPtr = std::shared_ptr<const sessions::AgreementMaps>;
-
-LinesPtr linesOfPose(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station) {
-  sessions::RenderTrace render;
-  const Status status = sessions::renderScene(loaded_case.source.camera, loaded_case.scene.view(),
-                                              camera_from_station, render);
-  return status == Status::kOk ? linesOf(render, 0) : nullptr;
-}
 
 /// From the stage Pose on the corrected pose is shown.
 bool isCorrected(const sessions::IterationTrace& iteration, Stage stage) {
@@ -38,25 +32,14 @@ bool isCorrected(const sessions::IterationTrace& iteration, Stage stage) {
          !(iteration.camera_from_station == iteration.camera_from_station_before);
 }
 
-QString stageName(Stage stage) {
-  switch (stage) {
-    case Stage::kRender:
-      return ImagePanel::tr(", render");
-    case Stage::kTemplates:
-      return ImagePanel::tr(", templates");
-    case Stage::kMatch:
-      return ImagePanel::tr(", match");
-    default:
-      return {};
-  }
-}
-
 /// "Iteration 2.3, match".
 QString shownText(const ViewState& state) {
   if (!state.iteration()) return state.snapshot() ? ImagePanel::tr("Seed") : QString();
+  const Stage stage = state.cursor().stage;
+  const bool before_pose = stage >= Stage::kRender && stage <= Stage::kMatch;
   return ImagePanel::tr("Iteration %1%2")
       .arg(fromText(sessions::iterationName(*state.snapshot(), state.cursor().iteration)),
-           stageName(state.cursor().stage));
+           before_pose ? QStringLiteral(", ") + QLatin1String(stageText(stage)) : QString());
 }
 
 }  // namespace
@@ -65,14 +48,11 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
     : QWidget(parent),
       state_(state),
       tasks_(tasks),
-      view_(new ImageView),
+      view_(named(new ImageView, "imageView")),
       canvases_(new QSplitter),
       display_(new DisplayImage(state, tasks, this)),
       chips_(new CanvasChips(*view_)) {
-  view_->setObjectName(QStringLiteral("imageView"));
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(canvases_);
+  withoutMargins(new QVBoxLayout(this))->addWidget(canvases_);
   canvases_->addWidget(view_);
   canvases_->setChildrenCollapsible(false);
   measure_ = new MeasureTool(*view_, state, this);
@@ -83,7 +63,10 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   buildTools();
   connect(display_, &DisplayImage::pictureChanged, this, &ImagePanel::showImage);
   connect(view_, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
-  connect(view_, &ImageView::cursorLeft, this, &ImagePanel::leavePlace);
+  connect(view_, &ImageView::cursorLeft, this, [this] {
+    Q_EMIT placeText(QString());
+    Q_EMIT stationPlaceHovered(std::nullopt);
+  });
   connect(view_, &ImageView::contextMenuRequested, this, &ImagePanel::showContextMenu);
   connect(view_, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
     if (layer == LayerId::kPoints) return;
@@ -121,7 +104,10 @@ void ImagePanel::buildTools() {
           &QAction::triggered, view_, &ImageView::fit);
   connect(add(Icon::kOneToOne, tr("1:1"), tr("One image pixel on one screen pixel (1)"), false),
           &QAction::triggered, view_, &ImageView::showOneToOne);
-  QAction* measure = add(Icon::kRuler, tr("Measure"), measure_->help(), true);
+  QAction* measure =
+      add(Icon::kRuler, tr("Measure"),
+          tr("Drag on the image: distance in pixels, and in mm where both ends are on the station"),
+          true);
   connect(measure, &QAction::toggled, measure_, &MeasureTool::setActive);
   connect(measure_, &MeasureTool::activeChanged, measure, &QAction::setChecked);
   strip.addSeparator();
@@ -154,22 +140,17 @@ void ImagePanel::buildTools() {
 }
 
 void ImagePanel::setBeside(QWidget* canvas) {
-  beside_ = canvas;
   canvases_->addWidget(canvas);
   canvas->hide();
   for (int i = 0; i < canvases_->count(); ++i) canvases_->setStretchFactor(i, 1);
   side_by_side_->setVisible(true);
-  connect(side_by_side_, &QAction::toggled, this, [this](bool on) {
-    beside_->setVisible(on);
+  connect(side_by_side_, &QAction::toggled, this, [this, canvas](bool on) {
+    canvas->setVisible(on);
     if (on) canvases_->setSizes({width() / 2, width() / 2});
   });
 }
 
 void ImagePanel::showBeside(bool shown) { side_by_side_->setChecked(shown); }
-
-void ImagePanel::toggleBlink() { blink_->toggle(); }
-void ImagePanel::toggleSwipe() { swipe_->toggle(); }
-void ImagePanel::toggleCoreView() { core_view_->toggle(); }
 
 const LayerStyle& ImagePanel::style(LayerId id) const { return view_->layer(id).style; }
 
@@ -181,26 +162,14 @@ void ImagePanel::setStyle(LayerId id, const LayerStyle& style) {
   Q_EMIT stylesChanged();
 }
 
-void ImagePanel::setBits(LayerId id, std::vector<LayerBits> bits) {
-  Layer layer = view_->layer(id);
-  layer.bits = std::move(bits);
-  view_->setLayer(std::move(layer));
-}
-
-void ImagePanel::setMarks(LayerId id, std::vector<Mark> marks) {
-  Layer layer = view_->layer(id);
-  layer.marks = std::move(marks);
-  view_->setLayer(std::move(layer));
-}
-
-void ImagePanel::setLines(LayerId id, LinesPtr lines) {
-  Layer layer = view_->layer(id);
-  layer.lines = std::move(lines);
-  view_->setLayer(std::move(layer));
+void ImagePanel::showLayer(LayerId id, bool visible) {
+  LayerStyle changed = style(id);
+  changed.visible = visible;
+  setStyle(id, changed);
 }
 
 void ImagePanel::setNudgedRender(RenderPtr render, int level) {
-  setLines(LayerId::kNudgedEdges, render ? linesOf(*render, level) : nullptr);
+  view_->setPart(LayerId::kNudgedEdges, &Layer::lines, render ? linesOf(*render, level) : nullptr);
 }
 
 void ImagePanel::showCase() {
@@ -220,18 +189,18 @@ void ImagePanel::showCase() {
   if (!same_scene) {
     agreement_of_.reset();
     pose_lines_ = {};
-    setBits(LayerId::kAgreement, {});
+    view_->setPart(LayerId::kAgreement, &Layer::bits, {});
     for (const LayerId id : {LayerId::kIterationEdges, LayerId::kNudgedEdges, LayerId::kChosenEdges,
                              LayerId::kHypothesisEdges})
       forget(id);
   }
-  setBits(LayerId::kIgnoreMask, ignoreBits(after));
+  view_->setPart(LayerId::kIgnoreMask, &Layer::bits, ignoreBits(after));
   askForRenders();
 }
 
 void ImagePanel::forget(LayerId id) {
   asked_[static_cast<std::size_t>(id)] = false;
-  setLines(id, nullptr);
+  view_->setPart(id, &Layer::lines, nullptr);
 }
 
 /// A hypothesis and the pose that the run went on with.
@@ -239,25 +208,14 @@ void ImagePanel::showAlternative() {
   forget(LayerId::kChosenEdges);
   forget(LayerId::kHypothesisEdges);
   const auto& other = state_.alternative();
-  for (const auto& [id, name] :
-       {std::pair(LayerId::kHypothesisEdges, other ? alternativeTitle(*other) : QString()),
-        {LayerId::kChosenEdges, other ? chosenTitle(*other) : QString()}}) {
-    Layer layer = view_->layer(id);
-    layer.name = name;
-    view_->setLayer(std::move(layer));
-  }
+  view_->setPart(LayerId::kHypothesisEdges, &Layer::name,
+                 other ? alternativeTitle(*other) : QString());
+  view_->setPart(LayerId::kChosenEdges, &Layer::name, other ? chosenTitle(*other) : QString());
   showTemplates();
-  fadeOthers();
+  // While two poses are compared, the edges of others are drawn faintly.
+  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges})
+    view_->setPart(id, &Layer::faded, other.has_value());
   askForRenders();
-}
-
-/// While two poses are compared, the edges of others are drawn faintly.
-void ImagePanel::fadeOthers() {
-  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges}) {
-    Layer layer = view_->layer(id);
-    layer.faded = state_.alternative().has_value();
-    view_->setLayer(std::move(layer));
-  }
 }
 
 void ImagePanel::showImage() {
@@ -270,18 +228,16 @@ void ImagePanel::showIteration() {
   chips_->setShown(shownText(state_));
   showPoseLook();
   askForPoseLines();
-  setBits(LayerId::kMask, maskBits(iteration));
-  const bool has_edges = state_.snapshot() && state_.snapshot()->edges;
-  setBits(LayerId::kTestEdges,
-          has_edges ? testEdgeBits(state_.snapshot()->edges, iteration ? iteration->level : 0)
-                    : std::vector<LayerBits>());
+  view_->setPart(LayerId::kMask, &Layer::bits, maskBits(iteration));
+  const auto edges = state_.snapshot() ? state_.snapshot()->edges : nullptr;
+  view_->setPart(LayerId::kTestEdges, &Layer::bits,
+                 testEdgeBits(edges, iteration ? iteration->level : 0));
   const bool posed = iteration && state_.cursor().stage >= Stage::kPose;
-  setMarks(LayerId::kResiduals, posed
-                                    ? residualMarks(*iteration, state_.currentCase()->source.camera)
-                                    : std::vector<Mark>());
+  view_->setPart(LayerId::kResiduals, &Layer::marks,
+                 posed ? residualMarks(*iteration, state_.currentCase()->source.camera) : Marks());
   if (agreement_of_ != iteration) {
     agreement_of_.reset();
-    setBits(LayerId::kAgreement, {});
+    view_->setPart(LayerId::kAgreement, &Layer::bits, {});
   }
   bringLayerOfStage();
   showTemplates();
@@ -308,17 +264,17 @@ void ImagePanel::askForPoseLines() {
   const QString key = QStringLiteral("pose lines");
   if (!iteration) {
     tasks_.cancel(key);
-    setLines(LayerId::kIterationEdges, nullptr);
+    view_->setPart(LayerId::kIterationEdges, &Layer::lines, nullptr);
     return;
   }
   tasks_.start(
       key,
       [wanted, loaded_case = state_.currentCase()](const std::stop_token&) {
-        return wanted.corrected ? linesOfPose(*loaded_case, wanted.iteration->camera_from_station)
+        return wanted.corrected ? linesOf(*loaded_case, wanted.iteration->camera_from_station)
                                 : linesOf(wanted.iteration->render, wanted.iteration->level);
       },
       [this, wanted](const LinesPtr& lines) {
-        if (wanted == pose_lines_) setLines(LayerId::kIterationEdges, lines);
+        if (wanted == pose_lines_) view_->setPart(LayerId::kIterationEdges, &Layer::lines, lines);
       });
 }
 
@@ -330,14 +286,10 @@ void ImagePanel::bringLayerOfStage() {
   if (state_.iteration() && stage == Stage::kMatch) wanted = LayerId::kMatches;
   if (wanted && stage_layer_ == wanted) return;
   if (const auto former = std::exchange(stage_layer_, std::nullopt)) {
-    LayerStyle hidden = style(*former);
-    hidden.visible = false;
-    setStyle(*former, hidden);
+    showLayer(*former, false);
   }
   if (!wanted || style(*wanted).visible) return;
-  LayerStyle shown = style(*wanted);
-  shown.visible = true;
-  setStyle(*wanted, shown);
+  showLayer(*wanted, true);
   stage_layer_ = wanted;
 }
 
@@ -347,12 +299,14 @@ void ImagePanel::showTemplates() {
   const int selected = state_.selectedTemplate();
   const bool placed = iteration && stage >= Stage::kTemplates;
   const bool matched = iteration && stage >= Stage::kMatch;
-  setMarks(LayerId::kTemplates, placed ? templateMarks(*iteration, selected) : std::vector<Mark>());
-  setMarks(LayerId::kWindows,
-           placed ? chosenMarks(*iteration, selected, matched) : std::vector<Mark>());
+  view_->setPart(LayerId::kTemplates, &Layer::marks,
+                 placed ? templateMarks(*iteration, selected) : Marks());
+  view_->setPart(LayerId::kWindows, &Layer::marks,
+                 placed ? chosenMarks(*iteration, selected, matched) : Marks());
   // Arrows of the pose that was chosen do not hold for another hypothesis.
   const bool arrows = matched && !state_.alternative();
-  setMarks(LayerId::kMatches, arrows ? matchMarks(*iteration, selected) : std::vector<Mark>());
+  view_->setPart(LayerId::kMatches, &Layer::marks,
+                 arrows ? matchMarks(*iteration, selected) : Marks());
 }
 
 void ImagePanel::askForRenders() {
@@ -379,13 +333,13 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
   tasks_.start(
       QString::fromLatin1(key),
       [loaded_case, camera_from_station](const std::stop_token&) {
-        return linesOfPose(*loaded_case, camera_from_station);
+        return linesOf(*loaded_case, camera_from_station);
       },
       [this, loaded_case, id](const LinesPtr& lines) {
         const ViewState::CasePtr& current = state_.currentCase();
         if (current && asked_[static_cast<std::size_t>(id)] &&
             loaded_case->source.id == current->source.id)
-          setLines(id, lines);
+          view_->setPart(id, &Layer::lines, lines);
       });
 }
 
@@ -402,7 +356,7 @@ void ImagePanel::askForAgreement() {
       },
       [this, iteration](const MapsPtr& maps) {
         if (agreement_of_ == iteration)
-          setBits(LayerId::kAgreement, agreementBits(maps, iteration->level));
+          view_->setPart(LayerId::kAgreement, &Layer::bits, agreementBits(maps, iteration->level));
       });
 }
 
@@ -438,11 +392,6 @@ void ImagePanel::showPlace(const QPointF& pixel) {
   }
   Q_EMIT placeText(text);
   Q_EMIT stationPlaceHovered(place);
-}
-
-void ImagePanel::leavePlace() {
-  Q_EMIT placeText(QString());
-  Q_EMIT stationPlaceHovered(std::nullopt);
 }
 
 void ImagePanel::showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m) {

@@ -49,21 +49,18 @@ class ImagePanel : public QWidget {
   void setBeside(QWidget* canvas);
   void showBeside(bool shown);
   void setStyle(LayerId id, const LayerStyle& style);
+  void showLayer(LayerId id, bool visible);
   const LayerStyle& style(LayerId id) const;
   /// Sets the edges of the nudged pose; nullptr removes them.
   void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
   /// Sets the text shown without an image; empty: a list of files that can be dropped here.
   void setHint(const QString& hint);
-  /// Sets the marks of a layer that no run fills.
-  void setMarks(LayerId id, std::vector<Mark> marks);
-  void setLines(LayerId id, LinesPtr lines);
   /// Marks a point of the station in the image; empty: none.
   void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
-
- public Q_SLOTS:
-  void toggleBlink();
-  void toggleSwipe();
-  void toggleCoreView();
+  /// Actions of the strip of tools.
+  QAction& blink() { return *blink_; }
+  QAction& swipe() { return *swipe_; }
+  QAction& coreView() { return *core_view_; }
 
  Q_SIGNALS:
   void stylesChanged();
@@ -77,7 +74,6 @@ class ImagePanel : public QWidget {
 
  private:
   void buildTools();
-  void setBits(LayerId id, std::vector<LayerBits> bits);
   void showCase();
   void showIteration();
   void askForPoseLines();
@@ -86,13 +82,11 @@ class ImagePanel : public QWidget {
   void bringLayerOfStage();
   std::optional<sessions::SurfacePoint> surfacePoint(const QPointF& pixel) const;
   void showPlace(const QPointF& pixel);
-  void leavePlace();
   void showContextMenu(const QPointF& pixel, const QPoint& global);
   void askForRenders();
   void askForRender(LayerId id, const char* key, const Pose& camera_from_station);
   void forget(LayerId id);
   void showAlternative();
-  void fadeOthers();
   void askForAgreement();
   void showImage();
 
@@ -112,7 +106,6 @@ class ImagePanel : public QWidget {
   CanvasChips* chips_;
   LayerLegend* legend_ = nullptr;
   MeasureTool* measure_ = nullptr;
-  QWidget* beside_ = nullptr;
   QAction* side_by_side_ = nullptr;
   QAction* blink_ = nullptr;
   QAction* swipe_ = nullptr;

@@ -27,11 +27,11 @@ constexpr double kWorkAtOnce = 40e3;    ///< length of lines on the screen, abou
 constexpr double kWorkOfABit = 2e-3;    ///< making its picture, in the same unit
 constexpr double kWorkOfAPixel = 5e-3;  ///< of a picture on the screen
 constexpr double kWorkOfAMark = 30.0;
-const QColor kSwipeColor(255, 255, 255);
 
 }  // namespace
 
-ImageView::ImageView(QWidget* parent) : QWidget(parent), layers_(kLayerCount), drawn_(kLayerCount) {
+ImageView::ImageView(QWidget* parent)
+    : QWidget(parent), layers_(kLayerCount), pixmaps_(kLayerCount) {
   for (int i = 0; i < kLayerCount; ++i) {
     Layer& layer = layers_[static_cast<std::size_t>(i)];
     layer.id = static_cast<LayerId>(i);
@@ -55,14 +55,14 @@ void ImageView::setImage(const QImage& gray) {
 void ImageView::setLayer(Layer layer) {
   const auto index = static_cast<std::size_t>(layer.id);
   layers_[index] = std::move(layer);
-  drawn_[index].pixmaps.clear();
+  pixmaps_[index].clear();
   redraw();
   Q_EMIT layersChanged();
 }
 
 void ImageView::setStyle(LayerId id, const LayerStyle& style) {
   const auto index = static_cast<std::size_t>(id);
-  if (layers_[index].style.color != style.color) drawn_[index].pixmaps.clear();
+  if (layers_[index].style.color != style.color) pixmaps_[index].clear();
   layers_[index].style = style;
   redraw();
   Q_EMIT layersChanged();
@@ -81,16 +81,11 @@ void ImageView::fit() {
   changed();
 }
 
-void ImageView::showOneToOne() {
-  fitted_ = false;
-  transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), 1.0 / devicePixelRatioF());
-  changed();
-}
+void ImageView::showOneToOne() { zoomTo(middle(), 1.0 / devicePixelRatioF()); }
 
 void ImageView::centreOn(const QPointF& pixel, double least_scale) {
   fitted_ = false;
-  if (transform_.scale() < least_scale)
-    transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), least_scale);
+  if (transform_.scale() < least_scale) transform_.zoomAt(middle(), least_scale);
   transform_.centreOn(pixel, size());
   changed();
 }
@@ -117,16 +112,13 @@ void ImageView::setToolActive(bool active, double radius_px) {
   update();
 }
 
-void ImageView::setToolPreviews(std::vector<ToolPreview> previews) {
-  tool_previews_ = std::move(previews);
-  update();
+void ImageView::claimTool(const QObject* owner) {
+  Q_EMIT toolClaimed(owner);
+  setFocus();
 }
 
-void ImageView::setOverlay(const QObject* owner, Overlay overlay) {
-  if (overlay)
-    overlays_[owner] = std::move(overlay);
-  else
-    overlays_.erase(owner);
+void ImageView::setToolPreviews(std::vector<ToolPreview> previews) {
+  tool_previews_ = std::move(previews);
   update();
 }
 
@@ -160,9 +152,8 @@ std::optional<ImageView::Pick> ImageView::pickAt(const QPointF& widget) const {
 
 /// Of the image, within a part of the widget.
 QRect ImageView::visiblePixels(const QRectF& area) const {
-  const ViewTransform& transform = drawing_->ground.transform;
-  const QPointF first = transform.toPixel(area.topLeft());
-  const QPointF last = transform.toPixel(area.bottomRight());
+  const QPointF first = drawn().toPixel(area.topLeft());
+  const QPointF last = drawn().toPixel(area.bottomRight());
   const QRect seen(
       QPoint(static_cast<int>(std::floor(first.x())), static_cast<int>(std::floor(first.y()))),
       QPoint(static_cast<int>(std::ceil(last.x())), static_cast<int>(std::ceil(last.y()))));
@@ -175,10 +166,13 @@ void ImageView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   paintGround(painter);
   if (image_.isNull()) return;
+  painter.setRenderHint(QPainter::Antialiasing, true);
   if (swipe_) paintSwipe(painter);
   paintTool(painter);
   if (linked_cursor_) paintLinkedCursor(painter);
-  for (const auto& [owner, overlay] : overlays_) overlay(painter);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  for (const auto& [owner, overlay] : overlays_)
+    if (owner) overlay(painter);
 }
 
 QRgb ImageView::canvasColor() const {
@@ -233,7 +227,7 @@ bool ImageView::prepareBits() {
   if (layers_hidden_) return false;
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     const Layer& layer = layers_[i];
-    std::vector<BitPixmaps>& pixmaps = drawn_[i].pixmaps;
+    std::vector<BitPixmaps>& pixmaps = pixmaps_[i];
     if (!layer.isShown()) continue;
     for (std::size_t j = 0; j < layer.bits.size(); ++j) {
       const LayerBits& bits = layer.bits[j];
@@ -251,16 +245,15 @@ bool ImageView::prepareBits() {
 
 /// Bits of this level that a pixel of the screen covers along an axis.
 double ImageView::bitsPerPixel(int level) const {
-  return 1.0 / (drawing_->ground.transform.scale() * devicePixelRatioF() * (1 << level));
+  return 1.0 / (drawn().scale() * devicePixelRatioF() * (1 << level));
 }
 
 /// As a length of lines on the screen.
 double ImageView::workToDraw() const {
   if (layers_hidden_ || image_.isNull()) return 0.0;
-  const ViewTransform& transform = drawing_->ground.transform;
   const QRectF seen = QRectF(visiblePixels(rect()));
   const double pixels =
-      std::pow(transform.scale() * devicePixelRatioF(), 2.0) * seen.width() * seen.height();
+      std::pow(drawn().scale() * devicePixelRatioF(), 2.0) * seen.width() * seen.height();
   const Eigen::AlignedBox2d box(Eigen::Vector2d(seen.left(), seen.top()),
                                 Eigen::Vector2d(seen.right(), seen.bottom()));
   double work = kWorkOfAPixel * pixels;  // of the image itself
@@ -269,19 +262,18 @@ double ImageView::workToDraw() const {
     if (!layer.isShown()) continue;
     for (std::size_t j = 0; j < layer.bits.size(); ++j) {
       const LayerBits& bits = layer.bits[j];
-      const std::vector<BitPixmaps>& made = drawn_[i].pixmaps;
+      const std::vector<BitPixmaps>& made = pixmaps_[i];
       if (j >= made.size() || !made[j].has(bitsPerPixel(bits.level)))
         work += kWorkOfABit * bits.bits.width * bits.bits.height;
     }
     work += kWorkOfAPixel * pixels * static_cast<double>(layer.bits.size()) +
             kWorkOfAMark * static_cast<double>(layer.marks.size());
-    if (layer.lines) work += transform.scale() * sessions::lengthWithin(*layer.lines, box);
+    if (layer.lines) work += drawn().scale() * sessions::lengthWithin(*layer.lines, box);
   }
   return work;
 }
 
 void ImageView::drawBand(const QRectF& band) {
-  const ViewTransform& transform = drawing_->ground.transform;
   QPainter painter(&drawing_->ground.picture);
   painter.setFont(font());
   if (image_.isNull()) {
@@ -299,8 +291,8 @@ void ImageView::drawBand(const QRectF& band) {
     for (std::size_t i = 0; i < layers_.size(); ++i) paintLayer(painter, i);
     painter.restore();
   }
-  if (transform.scale() >= kGridScale) paintGrid(painter, band);
-  if (transform.scale() >= kValueScale) paintValues(painter, band);
+  if (drawn().scale() >= kGridScale) paintGrid(painter, band);
+  if (drawn().scale() >= kValueScale) paintValues(painter, band);
 }
 
 /// While another ground is drawn, the former one lies where its pixels are now.
@@ -324,8 +316,7 @@ void ImageView::redraw() {
 void ImageView::paintSwipe(QPainter& painter) const {
   const double x = *swipe_ * width();
   const QPointF handle(x, 0.5 * height());
-  painter.setRenderHint(QPainter::Antialiasing, true);
-  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 4.0), QPen(kSwipeColor, 2.0)}) {
+  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 4.0), QPen(Qt::white, 2.0)}) {
     painter.setPen(pen);
     painter.drawLine(QPointF(x, 0.0), QPointF(x, height()));
     painter.setBrush(QColor(kDarkTheme.overlay));
@@ -333,17 +324,14 @@ void ImageView::paintSwipe(QPainter& painter) const {
                             kRadius, kRadius);
   }
   painter.setBrush(Qt::NoBrush);
-  painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
 void ImageView::paintLinkedCursor(QPainter& painter) const {
   const QPointF at = transform_.toWidget(*linked_cursor_);
-  painter.setRenderHint(QPainter::Antialiasing, true);
   for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.5), QPen(QColor(255, 255, 255), 1.5)}) {
     painter.setPen(pen);
     paintTicks(painter, at, 0.3 * kCursorSize, kCursorSize);
   }
-  painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
 /// Truth would hide a pose that coincides with it.
@@ -359,82 +347,76 @@ void ImageView::paintTool(QPainter& painter) const {
   for (const ToolPreview& preview : tool_previews_) paintPreview(painter, transform_, preview);
   if (!tool_active_ || tool_radius_px_ <= 0.0 || !underMouse()) return;
   const double radius = tool_radius_px_ * transform_.scale();
-  painter.setRenderHint(QPainter::Antialiasing, true);
   for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.0), QPen(QColor(255, 255, 255), 1.2)}) {
     painter.setPen(pen);
     painter.drawEllipse(last_, radius, radius);
   }
-  painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
 void ImageView::paintImage(QPainter& painter) const {
-  const ViewTransform& transform = drawing_->ground.transform;
   int step = 0;
-  const double device_scale = transform.scale() * devicePixelRatioF();
+  const double device_scale = drawn().scale() * devicePixelRatioF();
   const QImage& picture = image_.at(1.0 / device_scale, step);
   const double factor = static_cast<double>(1 << step);
   painter.setRenderHint(QPainter::SmoothPixmapTransform, device_scale < 1.0);
   // A pixel of the picture covers `factor` pixels of the image, the last one perhaps fewer.
   const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
-  painter.drawImage(transform.toWidget(covered), picture);
+  painter.drawImage(drawn().toWidget(covered), picture);
 }
 
 void ImageView::paintLayer(QPainter& painter, std::size_t index) {
-  const ViewTransform& transform = drawing_->ground.transform;
   const Layer& layer = layers_[index];
   if (!layer.isShown()) return;
   painter.setOpacity(layer.faded ? kFaded * layer.style.opacity : layer.style.opacity);
-  paintBits(painter, layer, drawn_[index]);
+  paintBits(painter, index);
   painter.setRenderHint(QPainter::Antialiasing, true);
   if (layer.lines)
-    paintLines(painter, transform, *layer.lines, lineOf(layer), painter.clipBoundingRect());
+    paintLines(painter, drawn(), *layer.lines, lineOf(layer), painter.clipBoundingRect());
   for (const Mark& mark : layer.marks)
-    if (reaches(transform, mark, painter.clipBoundingRect()))
-      paintMark(painter, transform, mark, layer.style.color);
+    if (reaches(drawn(), mark, painter.clipBoundingRect()))
+      paintMark(painter, drawn(), mark, layer.style.color);
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setOpacity(1.0);
 }
 
-void ImageView::paintBits(QPainter& painter, const Layer& layer, DrawnLayer& drawn) const {
-  const ViewTransform& transform = drawing_->ground.transform;
+void ImageView::paintBits(QPainter& painter, std::size_t index) {
+  const Layer& layer = layers_[index];
   painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
   for (std::size_t i = 0; i < layer.bits.size(); ++i) {
     const int level = layer.bits[i].level;
     int step = 0;
-    const QImage& picture = drawn.pixmaps[i].at(bitsPerPixel(level), step);
+    const QImage& picture = pixmaps_[index][i].at(bitsPerPixel(level), step);
     const double factor = static_cast<double>(1 << level) * static_cast<double>(1 << step);
     const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
-    painter.drawImage(transform.toWidget(covered), picture);
+    painter.drawImage(drawn().toWidget(covered), picture);
   }
 }
 
 void ImageView::paintGrid(QPainter& painter, const QRectF& band) const {
-  const ViewTransform& transform = drawing_->ground.transform;
   const QRect seen = visiblePixels(band);
   painter.setPen(QColor(128, 128, 128, 70));
   for (int x = seen.left(); x <= seen.right() + 1; ++x) {
-    const double at = transform.toWidget(QPointF(x - 0.5, 0.0)).x();
+    const double at = drawn().toWidget(QPointF(x - 0.5, 0.0)).x();
     painter.drawLine(QPointF(at, 0.0), QPointF(at, height()));
   }
   for (int y = seen.top(); y <= seen.bottom() + 1; ++y) {
-    const double at = transform.toWidget(QPointF(0.0, y - 0.5)).y();
+    const double at = drawn().toWidget(QPointF(0.0, y - 0.5)).y();
     painter.drawLine(QPointF(0.0, at), QPointF(width(), at));
   }
 }
 
 void ImageView::paintValues(QPainter& painter, const QRectF& band) const {
-  const ViewTransform& transform = drawing_->ground.transform;
   if (values_.isNull()) return;
   const QRect seen = visiblePixels(band);
   QFont small = font();
-  small.setPixelSize(static_cast<int>(std::clamp(0.36 * transform.scale(), 9.0, 22.0)));
+  small.setPixelSize(static_cast<int>(std::clamp(0.36 * drawn().scale(), 9.0, 22.0)));
   painter.setFont(small);
   for (int y = seen.top(); y <= seen.bottom(); ++y) {
     for (int x = seen.left(); x <= seen.right(); ++x) {
       const int gray = values_.constScanLine(y)[x];
       const int shown = image_.full().constScanLine(y)[x];  // perhaps stretched
       painter.setPen(shown < 128 ? QColor(255, 255, 255, 190) : QColor(0, 0, 0, 190));
-      painter.drawText(transform.toWidget(QRectF(x - 0.5, y - 0.5, 1.0, 1.0)), Qt::AlignCenter,
+      painter.drawText(drawn().toWidget(QRectF(x - 0.5, y - 0.5, 1.0, 1.0)), Qt::AlignCenter,
                        QString::number(gray));
     }
   }
@@ -444,9 +426,9 @@ void ImageView::resizeEvent(QResizeEvent*) {
   if (fitted_) fit();
 }
 
-void ImageView::zoomBy(const QPointF& widget, double factor) {
+void ImageView::zoomTo(const QPointF& widget, double scale) {
   fitted_ = false;
-  transform_.zoomAt(widget, transform_.scale() * factor);
+  transform_.zoomAt(widget, scale);
   changed();
 }
 
@@ -459,7 +441,7 @@ void ImageView::panBy(const QPointF& delta) {
 void ImageView::wheelEvent(QWheelEvent* event) {
   const double notches = event->angleDelta().y() / 120.0;
   if (notches == 0.0 || image_.isNull()) return;
-  zoomBy(event->position(), std::pow(kZoomStep, notches));
+  zoomTo(event->position(), transform_.scale() * std::pow(kZoomStep, notches));
   event->accept();
 }
 
@@ -480,7 +462,6 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
   last_ = place;
   if (swiping_) {
     setSwipe(std::clamp(place.x() / width(), 0.0, 1.0));
-    Q_EMIT swipeMoved(*swipe_);
     return;
   }
   if (tool_pressed_) {
@@ -496,19 +477,13 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
 void ImageView::mouseReleaseEvent(QMouseEvent* event) {
   const QPointF place = pointerPlace(*event, *this);
   if (std::exchange(swiping_, false)) return;
-  if (tool_pressed_) {
-    tool_pressed_ = false;
+  if (std::exchange(tool_pressed_, false)) {
     Q_EMIT toolReleased(transform_.toPixel(place));
     return;
   }
-  if (dragging_) {
-    dragging_ = false;
-    return;
-  }
-  if (image_.isNull()) return;
-  if (event->button() == Qt::LeftButton) {
-    if (const std::optional<Pick> pick = pickAt(place)) Q_EMIT itemClicked(pick->layer, pick->item);
-  }
+  if (std::exchange(dragging_, false) || image_.isNull()) return;
+  if (const auto pick = event->button() == Qt::LeftButton ? pickAt(place) : std::nullopt)
+    Q_EMIT itemClicked(pick->layer, pick->item);
   Q_EMIT clicked(transform_.toPixel(place), event->button(), event->modifiers());
 }
 
@@ -526,7 +501,6 @@ void ImageView::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void ImageView::keyPressEvent(QKeyEvent* event) {
   const double step = 0.1 * std::min(width(), height());
-  const QPointF middle(0.5 * width(), 0.5 * height());
   switch (event->key()) {
     case Qt::Key_H:
       return setLayersHidden(true);
@@ -536,18 +510,11 @@ void ImageView::keyPressEvent(QKeyEvent* event) {
       return fit();
     case Qt::Key_Plus:
     case Qt::Key_Equal:
-      return zoomBy(middle, kZoomStep);
+      return zoomTo(middle(), transform_.scale() * kZoomStep);
     case Qt::Key_Minus:
-      return zoomBy(middle, 1.0 / kZoomStep);
-    case Qt::Key_Left:
-      return panBy({step, 0.0});
-    case Qt::Key_Right:
-      return panBy({-step, 0.0});
-    case Qt::Key_Up:
-      return panBy({0.0, step});
-    case Qt::Key_Down:
-      return panBy({0.0, -step});
+      return zoomTo(middle(), transform_.scale() * (1.0 / kZoomStep));
     default:
+      if (const QPointF arrow = arrowOf(event->key()); !arrow.isNull()) return panBy(-step * arrow);
       QWidget::keyPressEvent(event);
   }
 }

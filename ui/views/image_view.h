@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <QPointF>
+#include <QPointer>
 #include <QWidget>
 
 #include "ui/views/display_image.h"
@@ -36,6 +38,13 @@ class ImageView : public QWidget {
   /// Replaces one layer; the others keep their pixmaps.
   void setLayer(Layer layer);
   const Layer& layer(LayerId id) const { return layers_[static_cast<std::size_t>(id)]; }
+  /// Replaces one part of a layer, such as its marks.
+  template <class Part>
+  void setPart(LayerId id, Part Layer::*part, std::type_identity_t<Part> value) {
+    Layer changed = layer(id);
+    changed.*part = std::move(value);
+    setLayer(std::move(changed));
+  }
   void setStyle(LayerId id, const LayerStyle& style);
 
   QSize imageSize() const { return image_.size(); }
@@ -81,11 +90,11 @@ class ImageView : public QWidget {
   void itemClicked(boresight::ui::LayerId layer, int item);
   void transformChanged();
   void layersChanged();  ///< contents or styles
-  void swipeMoved(double share);
   void contextMenuRequested(const QPointF& pixel, const QPoint& global);
+  /// Tools other than the owner end.
+  void toolClaimed(const QObject* owner);
   /// While a tool is set, the left button is the tool's (the middle one pans); a double click is
   /// two presses.
-  void toolClaimed(const QObject* owner);
   void toolPressed(const QPointF& pixel);
   void toolMoved(const QPointF& pixel);
   void toolReleased(const QPointF& pixel);
@@ -94,12 +103,13 @@ class ImageView : public QWidget {
   /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
-  /// One tool works at a time: other tools are asked to end.
-  void claimTool(const QObject* owner) { Q_EMIT toolClaimed(owner); }
+  /// One tool works at a time: other tools are asked to end. The keys are the tool's.
+  void claimTool(const QObject* owner);
   void setToolPreviews(std::vector<ToolPreview> previews);
-  /// Painting over everything else, in the widget's coordinates; one for each owner. Empty: none.
-  using Overlay = std::function<void(QPainter&)>;
-  void setOverlay(const QObject* owner, Overlay overlay);
+  /// Adds painting over everything else, in the widget's coordinates, as long as its owner lives.
+  void addOverlay(QObject* owner, std::function<void(QPainter&)> overlay) {
+    overlays_.emplace_back(owner, std::move(overlay));
+  }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -116,9 +126,6 @@ class ImageView : public QWidget {
   void leaveEvent(QEvent* event) override;
 
  private:
-  struct DrawnLayer {
-    std::vector<BitPixmaps> pixmaps;  ///< one per LayerBits, made when first drawn
-  };
   /// Image and layers as drawn with a transform.
   struct Ground {
     QPixmap picture;
@@ -133,6 +140,8 @@ class ImageView : public QWidget {
     bool superseded = false;  ///< another is to be drawn after it
   };
 
+  /// Transform of the ground that is being drawn.
+  const ViewTransform& drawn() const { return drawing_->ground.transform; }
   QRgb canvasColor() const;
   QSize deviceSize() const;
   void updateGround();
@@ -153,16 +162,17 @@ class ImageView : public QWidget {
   void paintLinkedCursor(QPainter& painter) const;
   LineToken lineOf(const Layer& layer) const;
   bool isOnSwipe(const QPointF& place) const;
-  void paintBits(QPainter& painter, const Layer& layer, DrawnLayer& drawn) const;
+  void paintBits(QPainter& painter, std::size_t index);
   QRect visiblePixels(const QRectF& area) const;
   void changed();
-  void zoomBy(const QPointF& widget, double factor);
+  QPointF middle() const { return {0.5 * width(), 0.5 * height()}; }
+  void zoomTo(const QPointF& widget, double scale);
   void panBy(const QPointF& delta);
 
   GrayPyramid image_;
   QImage values_;
   std::vector<Layer> layers_;
-  std::vector<DrawnLayer> drawn_;
+  std::vector<std::vector<BitPixmaps>> pixmaps_;  ///< by layer, one per LayerBits, made when drawn
   ViewTransform transform_;
   bool fitted_ = true;  ///< follows the widget's size
   std::optional<double> swipe_;
@@ -175,7 +185,7 @@ class ImageView : public QWidget {
   bool tool_pressed_ = false;
   double tool_radius_px_ = 0.0;
   std::vector<ToolPreview> tool_previews_;
-  std::map<const QObject*, Overlay> overlays_;
+  std::vector<std::pair<QPointer<QObject>, std::function<void(QPainter&)>>> overlays_;
   std::optional<QPointF> linked_cursor_;
   Ground ground_;                   ///< as drawn last
   std::optional<Drawing> drawing_;  ///< in place of `ground_`

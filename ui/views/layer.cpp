@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sessions/trace/match_details.h"
+#include "sessions/trace/scene_render.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
@@ -82,6 +83,13 @@ LinesPtr linesOf(const sessions::RenderTrace& render, int level) {
   return std::make_shared<const sessions::EdgeLines>(sessions::edgeLines(render, level));
 }
 
+LinesPtr linesOf(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station) {
+  sessions::RenderTrace render;
+  const Status status = sessions::renderScene(loaded_case.source.camera, loaded_case.scene.view(),
+                                              camera_from_station, render);
+  return status == Status::kOk ? linesOf(render, 0) : nullptr;
+}
+
 LineToken Layer::shownLine() const {
   if (line) return *line;
   LineToken own = layerInfo(id).line;
@@ -92,19 +100,13 @@ LineToken Layer::shownLine() const {
 namespace {
 
 LayerBits layerBits(std::shared_ptr<const void> owner, const BitImage& bits, int level) {
-  LayerBits result;
-  result.owner = std::move(owner);
-  result.bits = bits;
-  result.level = level;
-  return result;
+  return {std::move(owner), bits, level, {}};
 }
 
-QRectF windowArea(const SearchWindow& window, int level) {
-  const Eigen::Vector2d first =
-      sessions::fullImagePixel(window.x_min - 0.5, window.y_min - 0.5, level);
-  const Eigen::Vector2d last =
-      sessions::fullImagePixel(window.x_max + 0.5, window.y_max + 0.5, level);
-  return {pointOf(first), pointOf(last)};
+/// An area of a pyramid level on the full image.
+QRectF areaOf(double left, double top, double right, double bottom, int level) {
+  return {pointOf(sessions::fullImagePixel(left, top, level)),
+          pointOf(sessions::fullImagePixel(right, bottom, level))};
 }
 
 QRectF templateArea(const sessions::IterationTrace& iteration, std::size_t index) {
@@ -112,8 +114,7 @@ QRectF templateArea(const sessions::IterationTrace& iteration, std::size_t index
   const double half = 0.5 * iteration.template_side_px;
   const double x = iteration.templates[index].center_x - 0.5;
   const double y = iteration.templates[index].center_y - 0.5;
-  return {pointOf(sessions::fullImagePixel(x - half, y - half, iteration.level)),
-          pointOf(sessions::fullImagePixel(x + half, y + half, iteration.level))};
+  return areaOf(x - half, y - half, x + half, y + half, iteration.level);
 }
 
 Mark rectangle(const QRectF& area, int item) {
@@ -180,7 +181,10 @@ std::vector<Mark> chosenMarks(const sessions::IterationTrace& iteration, int sel
   std::vector<Mark> marks = {rectangle(templateArea(iteration, index), kTemplateLine)};
   if (!searched || index >= iteration.matches.size()) return marks;
   const SearchWindow& window = iteration.matches[index].window;
-  if (!window.empty()) marks.push_back(rectangle(windowArea(window, iteration.level), kWindowLine));
+  if (window.empty()) return marks;
+  marks.push_back(rectangle(areaOf(window.x_min - 0.5, window.y_min - 0.5, window.x_max + 0.5,
+                                   window.y_max + 0.5, iteration.level),
+                            kWindowLine));
   return marks;
 }
 

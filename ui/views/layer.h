@@ -72,9 +72,11 @@ inline bool isRejected(const sessions::LocalizationTrace& run) {
   return run.status != LocalizationStatus::kRunning && !run.converged();
 }
 
-/// Lines that a layer draws, shared with their maker.
+/// Lines that a layer draws.
 using LinesPtr = std::shared_ptr<const sessions::EdgeLines>;
 LinesPtr linesOf(const sessions::RenderTrace& render, int level);
+/// Salient edges of a case rendered from a pose; nullptr if the core rejects it.
+LinesPtr linesOf(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station);
 
 /// A packed binary image of a pyramid level; `owner` keeps its words alive.
 struct LayerBits {
@@ -112,7 +114,7 @@ struct Mark {
   bool cased = false;             ///< with a dark rim, to be seen on any image
   double width = 1.5;             ///< of its lines, on the screen
   std::optional<LineToken> line;  ///< width, pattern and halo instead of these three
-  int item = -1;  ///< its object (a template, a point), or -1: cannot be picked
+  int item = -1;                  ///< its object (a template, a point), or -1: cannot be picked
   QString label;
 };
 

@@ -9,6 +9,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/line_painter.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -21,8 +22,9 @@ constexpr int kSpace = 8;
 constexpr LayerId kOnDemand[] = {LayerId::kHypothesisEdges, LayerId::kChosenEdges,
                                  LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
 
-bool isOnDemand(LayerId id) {
-  return std::find(std::begin(kOnDemand), std::end(kOnDemand), id) != std::end(kOnDemand);
+template <class Layers>
+bool has(const Layers& layers, LayerId id) {
+  return std::ranges::count(layers, id) > 0;
 }
 
 }  // namespace
@@ -98,20 +100,15 @@ LayerLegend::LayerLegend(ImagePanel& image) : QFrame(&image.view()), image_(imag
     const LayerInfo& info = layerInfo(static_cast<LayerId>(i));
     auto* row = new Row(info);
     rows_.push_back(row);
-    connect(row, &QAbstractButton::clicked, this, [this, id = info.id](bool on) {
-      LayerStyle style = image_.style(id);
-      style.visible = on;
-      image_.setStyle(id, style);
-    });
+    connect(row, &QAbstractButton::clicked, this,
+            [this, id = info.id](bool on) { image_.showLayer(id, on); });
   }
-  auto* all = new QToolButton;
-  all->setObjectName(QStringLiteral("allLayers"));
+  auto* all = named(new QToolButton, "allLayers", tr("Colour and opacity of every layer"));
   all->setText(tr("All layers"));
   all->setIcon(overlayIcon(Icon::kLayers));
   all->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   all->setAutoRaise(true);
   all->setFocusPolicy(Qt::NoFocus);
-  all->setToolTip(tr("Colour and opacity of every layer"));
   connect(all, &QToolButton::clicked, this, &LayerLegend::allLayersRequested);
   for (Row* row : rows_) column->addWidget(row);
   column->addWidget(all);
@@ -135,9 +132,8 @@ std::vector<LayerId> LayerLegend::shown() const {
   for (int i = 0; i < kLayerCount; ++i) {
     const auto id = static_cast<LayerId>(i);
     const Layer& layer = image_.view().layer(id);
-    const bool is_drawn = !layer.empty() && (layer.style.visible || isOnDemand(id));
-    if (is_drawn && std::find(result.begin(), result.end(), id) == result.end())
-      result.push_back(id);
+    const bool is_drawn = !layer.empty() && (layer.style.visible || has(kOnDemand, id));
+    if (is_drawn && !has(result, id)) result.push_back(id);
   }
   return result;
 }
@@ -146,12 +142,11 @@ void LayerLegend::update() {
   const std::vector<LayerId> listed = shown();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const auto id = static_cast<LayerId>(i);
-    const bool shows = std::find(listed.begin(), listed.end(), id) != listed.end();
     rows_[i]->setLayer(image_.view().layer(id));
-    rows_[i]->setVisible(shows);
+    rows_[i]->setVisible(has(listed, id));
   }
   adjustSize();
-  if (auto* view = parentWidget()) move(8, view->height() - height() - 8);
+  move(8, parentWidget()->height() - height() - 8);
 }
 
 }  // namespace boresight::ui

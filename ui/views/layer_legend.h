@@ -7,9 +7,6 @@
 
 #include "ui/views/layer.h"
 
-class QToolButton;
-class QVBoxLayout;
-
 namespace boresight::ui {
 
 class ImagePanel;

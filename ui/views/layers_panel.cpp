@@ -8,6 +8,7 @@
 
 #include "ui/views/image_panel.h"
 #include "ui/views/layer_legend.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -30,41 +31,38 @@ LayersPanel::LayersPanel(ImagePanel& image, QWidget* parent) : QWidget(parent), 
   scroll->setFrameShape(QFrame::NoFrame);
   outer->addWidget(scroll);
   auto* list = new QWidget;
-  auto* grid = new QGridLayout(list);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(8);
-  grid->setVerticalSpacing(2);
-  grid_ = grid;
+  grid_ = new QGridLayout(list);
+  grid_->setContentsMargins(0, 0, 0, 0);
+  grid_->setHorizontalSpacing(8);
+  grid_->setVerticalSpacing(2);
   rows_.resize(kLayerCount);
-  for (int i = 0; i < kLayerCount; ++i) buildRow(*grid, static_cast<LayerId>(i));
-  all_ = new QToolButton;
-  all_->setObjectName(QStringLiteral("allLayersOpen"));
+  for (int i = 0; i < kLayerCount; ++i) buildRow(static_cast<LayerId>(i));
+  all_ = named(new QToolButton, "allLayersOpen", tr("List the other layers too"));
   all_->setText(tr("All layers"));
-  all_->setToolTip(tr("List the other layers too"));
   all_->setCheckable(true);
   all_->setAutoRaise(true);
   all_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   connect(all_, &QToolButton::toggled, this, &LayersPanel::arrange);
-  grid->setColumnStretch(3, 100);  // as wide as a slider may be; the rest stays empty
-  grid->setColumnStretch(4, 1);
-  grid->setRowStretch(kLayerCount + 1, 1);
+  grid_->setColumnStretch(3, 100);  // as wide as a slider may be; the rest stays empty
+  grid_->setColumnStretch(4, 1);
+  grid_->setRowStretch(kLayerCount + 1, 1);
   scroll->setWidget(list);
   arrange();
   connect(&image_, &ImagePanel::stylesChanged, this, &LayersPanel::showStyles);
   showStyles();
 }
 
-void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
+void LayersPanel::buildRow(LayerId id) {
   const int index = static_cast<int>(id);
   Row& row = rows_[static_cast<std::size_t>(index)];
   const LayerInfo& info = layerInfo(id);
   row.shown = new QCheckBox(tr(info.name));
   row.shown->setObjectName(QStringLiteral("layer%1").arg(index));
   row.shown->setToolTip(tr(info.help));
-  auto* key = row.key = new QLabel(QString::fromLatin1(info.key));
-  key->setFrameShape(QFrame::StyledPanel);  // as a key cap
-  key->setAlignment(Qt::AlignCenter);
-  key->setToolTip(tr("Key that toggles this layer"));
+  row.key = new QLabel(QString::fromLatin1(info.key));
+  row.key->setFrameShape(QFrame::StyledPanel);  // as a key cap
+  row.key->setAlignment(Qt::AlignCenter);
+  row.key->setToolTip(tr("Key that toggles this layer"));
   row.color = new QToolButton;
   row.color->setAutoRaise(true);
   row.color->setToolTip(tr("Colour of %1").arg(tr(info.name).toLower()));
@@ -74,14 +72,8 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   row.opacity->setMaximumWidth(kWidestSlider_px);
   row.opacity->setToolTip(tr("Opacity, percent"));
   row.opacity->setAccessibleName(tr("Opacity of %1").arg(tr(info.name).toLower()));
-  int column = 0;
-  for (QWidget* each : std::initializer_list<QWidget*>{row.shown, key, row.color, row.opacity})
-    grid.addWidget(each, index, column++);
-  connect(row.shown, &QCheckBox::toggled, this, [this, id](bool on) {
-    LayerStyle style = image_.style(id);
-    style.visible = on;
-    image_.setStyle(id, style);
-  });
+  place(row, index);
+  connect(row.shown, &QCheckBox::toggled, this, [this, id](bool on) { image_.showLayer(id, on); });
   connect(row.opacity, &QSlider::valueChanged, this, [this, id](int percent) {
     LayerStyle style = image_.style(id);
     style.opacity = percent / 100.0;
@@ -90,24 +82,24 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   connect(row.color, &QToolButton::clicked, this, [this, id] { chooseColor(id); });
 }
 
+std::array<QWidget*, 4> LayersPanel::place(const Row& row, int grid_row) {
+  const std::array<QWidget*, 4> widgets = {row.shown, row.key, row.color, row.opacity};
+  for (int column = 0; column < 4; ++column)
+    grid_->addWidget(widgets[static_cast<std::size_t>(column)], grid_row, column);
+  return widgets;
+}
+
 /// The short list in its order, then the others, the uppermost first as it lies over the others.
 void LayersPanel::arrange() {
   std::vector<LayerId> order = short_list_;
-  const auto listed = [&](LayerId id) {
-    return std::find(short_list_.begin(), short_list_.end(), id) != short_list_.end();
-  };
   for (int i = kLayerCount - 1; i >= 0; --i)
-    if (!listed(static_cast<LayerId>(i))) order.push_back(static_cast<LayerId>(i));
+    if (std::ranges::count(short_list_, static_cast<LayerId>(i)) == 0)
+      order.push_back(static_cast<LayerId>(i));
   const auto fewer = static_cast<int>(short_list_.size());
   for (int i = 0; i < kLayerCount; ++i) {
     const Row& row = rows_[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
     const bool shows = i < fewer || fewer == 0 || all_->isChecked();
-    int column = 0;
-    for (QWidget* each :
-         std::initializer_list<QWidget*>{row.shown, row.key, row.color, row.opacity}) {
-      grid_->addWidget(each, i < fewer ? i : i + 1, column++);
-      each->setVisible(shows);
-    }
+    for (QWidget* each : place(row, i < fewer ? i : i + 1)) each->setVisible(shows);
   }
   grid_->addWidget(all_, fewer, 0, 1, 4);
   all_->setVisible(fewer > 0);

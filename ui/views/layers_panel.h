@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <QWidget>
@@ -38,7 +39,8 @@ class LayersPanel : public QWidget {
     QSlider* opacity = nullptr;
   };
 
-  void buildRow(QGridLayout& grid, LayerId id);
+  void buildRow(LayerId id);
+  std::array<QWidget*, 4> place(const Row& row, int grid_row);
   void chooseColor(LayerId id);
   void showStyles();
   void arrange();

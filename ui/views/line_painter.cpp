@@ -50,55 +50,40 @@ std::optional<std::pair<double, double>> shareWithin(const QRectF& area, const Q
   return std::pair(first, last);
 }
 
-/// Draws the parts of lines that are seen with one pen.
-class RunPainter {
- public:
-  RunPainter(QPainter& painter, QPen pen, double period_px, const QRectF& area)
-      : painter_(painter), pen_(std::move(pen)), period_px_(period_px), area_(area) {}
-
-  void paint(const ViewTransform& transform, const sessions::EdgeLine& line) {
-    const auto widget = [&](const Eigen::Vector2d& place) {
-      return transform.toWidget(QPointF(place.x(), place.y()));
-    };
-    double length = 0.0;  // up to `from`
-    QPointF from = widget(line.places_px.front());
-    for (std::size_t i = 1; i < line.places_px.size(); ++i) {
-      const QPointF to = widget(line.places_px[i]);
-      const double segment = std::hypot(to.x() - from.x(), to.y() - from.y());
-      if (const auto share = shareWithin(area_, from, to)) {
-        if (run_.isEmpty() || share->first > 0.0) {
-          flush();
-          begin_ = length + share->first * segment;
-          run_ << from + share->first * (to - from);
-        }
-        run_ << from + share->second * (to - from);
-        if (share->second < 1.0) flush();
-      } else {
+/// Draws the parts of a line that are seen.
+void paintLine(QPainter& painter, const ViewTransform& transform, const sessions::EdgeLine& line,
+               QPen pen, double period_px, const QRectF& area) {
+  QPolygonF run;
+  double begin = 0.0;  // length of the line before the run
+  const auto flush = [&] {
+    if (run.size() > 1) {
+      if (period_px > 0.0) pen.setDashOffset(std::fmod(begin, period_px) / pen.widthF());
+      painter.setPen(pen);
+      painter.drawPolyline(run);
+    }
+    run.clear();
+  };
+  double length = 0.0;  // up to `from`
+  QPointF from = transform.toWidget(line.places_px.front());
+  for (std::size_t i = 1; i < line.places_px.size(); ++i) {
+    const QPointF to = transform.toWidget(line.places_px[i]);
+    const double segment = distance_px(from, to);
+    if (const auto share = shareWithin(area, from, to)) {
+      if (run.isEmpty() || share->first > 0.0) {
         flush();
+        begin = length + share->first * segment;
+        run << from + share->first * (to - from);
       }
-      length += segment;
-      from = to;
+      run << from + share->second * (to - from);
+      if (share->second < 1.0) flush();
+    } else {
+      flush();
     }
-    flush();
+    length += segment;
+    from = to;
   }
-
- private:
-  void flush() {
-    if (run_.size() > 1) {
-      if (period_px_ > 0.0) pen_.setDashOffset(std::fmod(begin_, period_px_) / pen_.widthF());
-      painter_.setPen(pen_);
-      painter_.drawPolyline(run_);
-    }
-    run_.clear();
-  }
-
-  QPainter& painter_;
-  QPen pen_;
-  double period_px_;
-  QRectF area_;
-  QPolygonF run_;
-  double begin_ = 0.0;  ///< length of the line before the run
-};
+  flush();
+}
 
 }  // namespace
 
@@ -119,11 +104,10 @@ void paintLines(QPainter& painter, const ViewTransform& transform, const session
                                 Eigen::Vector2d(pixels.right(), pixels.bottom()));
   painter.setBrush(Qt::NoBrush);
   // All halos first: none lies over a neighbouring line.
-  for (const QPen& pen : {haloPen(line), linePen(line)}) {
-    RunPainter run(painter, pen, periodOf(line), area);
+  for (const QPen& pen : {haloPen(line), linePen(line)})
     for (const sessions::EdgeLine& each : lines)
-      if (box.intersects(each.box_px)) run.paint(transform, each);
-  }
+      if (box.intersects(each.box_px))
+        paintLine(painter, transform, each, pen, periodOf(line), area);
 }
 
 void paintLineSample(QPainter& painter, const QRectF& box, const LineToken& line) {

@@ -28,16 +28,11 @@ QColor previewColor(const ImageView& view, bool erase) {
 
 ToolPreview previewOf(const MaskStroke& stroke, const ImageView& view) {
   ToolPreview preview;
-  for (const Eigen::Vector2d& point : stroke.points)
-    preview.points.emplace_back(point.x(), point.y());
+  for (const Eigen::Vector2d& point : stroke.points) preview.points.push_back(pointOf(point));
   preview.color = previewColor(view, stroke.erase);
   preview.filled = stroke.kind == StrokeKind::kPolygon;
   if (stroke.kind == StrokeKind::kBrush) preview.radius_px = stroke.radius_px;
   return preview;
-}
-
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
 }
 
 }  // namespace
@@ -63,7 +58,6 @@ void MaskEditor::setTool(MaskTool tool) {
   points_.clear();
   if (tool != MaskTool::kNone) view_.claimTool(this);
   view_.setToolActive(tool != MaskTool::kNone, tool == MaskTool::kBrush ? radius_px_ : 0.0);
-  if (tool != MaskTool::kNone) view_.setFocus();  // for the keys
   showPreview();
   Q_EMIT changed();
 }
@@ -90,7 +84,7 @@ void MaskEditor::setPending(const sessions::MaskStrokes& strokes) {
 }
 
 bool MaskEditor::isNear(const QPointF& pixel, const QPointF& corner) const {
-  return distance(pixel, corner) * view_.transform().scale() <= kCloseDistance;
+  return distance_px(pixel, corner) * view_.transform().scale() <= kCloseDistance;
 }
 
 void MaskEditor::press(const QPointF& pixel) {
@@ -98,12 +92,8 @@ void MaskEditor::press(const QPointF& pixel) {
   if (tool_ == MaskTool::kBrush) {
     points_ = {pixel};
   } else if (tool_ == MaskTool::kPolygon) {
-    const bool closes =
-        points_.size() >= 3 && (isNear(pixel, points_.front()) || isNear(pixel, points_.back()));
-    if (closes) {
-      closePolygon();
-      return;
-    }
+    if (points_.size() >= 3 && (isNear(pixel, points_.front()) || isNear(pixel, points_.back())))
+      return closePolygon();
     if (points_.empty() || !isNear(pixel, points_.back())) points_.push_back(pixel);
   }
   showPreview();
@@ -112,7 +102,7 @@ void MaskEditor::press(const QPointF& pixel) {
 void MaskEditor::move(const QPointF& pixel) {
   pointer_ = pixel;
   if (tool_ == MaskTool::kBrush && !points_.empty() &&
-      distance(pixel, points_.back()) >= kBrushSpacing * radius_px_)
+      distance_px(pixel, points_.back()) >= kBrushSpacing * radius_px_)
     points_.push_back(pixel);
   showPreview();
 }
@@ -134,8 +124,7 @@ void MaskEditor::finish() {
   stroke.erase = erase_;
   // What a kind has no use for stays at its default, as it is when the stroke is read from a file.
   if (tool_ == MaskTool::kBrush) stroke.radius_px = radius_px_;
-  for (const QPointF& point : std::exchange(points_, {}))
-    stroke.points.emplace_back(point.x(), point.y());
+  for (const QPointF& point : std::exchange(points_, {})) stroke.points.push_back(vectorOf(point));
   showPreview();
   Q_EMIT strokeDrawn(stroke);
 }
@@ -182,15 +171,13 @@ bool MaskEditor::pressKey(int key) {
 }
 
 bool MaskEditor::eventFilter(QObject* watched, QEvent* event) {
-  if (tool_ != MaskTool::kNone && event->type() == QEvent::ShortcutOverride &&
-      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
-    event->accept();  // while a run could be stopped by the same key
-    return true;
-  }
-  if (tool_ != MaskTool::kNone && event->type() == QEvent::KeyPress &&
-      pressKey(static_cast<QKeyEvent*>(event)->key()))
-    return true;
-  return QObject::eventFilter(watched, event);
+  const bool override = event->type() == QEvent::ShortcutOverride;
+  if (tool_ == MaskTool::kNone || (!override && event->type() != QEvent::KeyPress))
+    return QObject::eventFilter(watched, event);
+  const int key = static_cast<QKeyEvent*>(event)->key();
+  if (!override) return pressKey(key);
+  if (key == Qt::Key_Escape) event->accept();  // while a run could be stopped by the same key
+  return key == Qt::Key_Escape;
 }
 
 }  // namespace boresight::ui

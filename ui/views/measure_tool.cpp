@@ -16,14 +16,12 @@ namespace {
 constexpr double kTick = 8.0;
 constexpr LineToken kRuler = {0xFFFFFF, 1.6, 0, 0, false, 0x000000, 2.0};
 
-Eigen::Vector2d vectorOf(const QPointF& point) { return {point.x(), point.y()}; }
-
 }  // namespace
 
 MeasureTool::MeasureTool(ImageView& view, ViewState& state, QObject* parent)
     : QObject(parent), view_(view), state_(state) {
   view_.installEventFilter(this);
-  view_.setOverlay(this, [this](QPainter& painter) { paint(painter); });
+  view_.addOverlay(this, [this](QPainter& painter) { paint(painter); });
   connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
     if (owner != this) setActive(false);
   });
@@ -35,17 +33,10 @@ MeasureTool::MeasureTool(ImageView& view, ViewState& state, QObject* parent)
   });
 }
 
-QString MeasureTool::help() {
-  return tr("Drag on the image: distance in pixels, and in mm where both ends are on the station");
-}
-
 void MeasureTool::setActive(bool active) {
   if (active == active_) return;
   active_ = active;
-  if (active) {
-    view_.claimTool(this);
-    view_.setFocus();
-  }
+  if (active) view_.claimTool(this);
   view_.setToolActive(active);
   clear();
   Q_EMIT activeChanged(active);

@@ -24,7 +24,6 @@ class MeasureTool : public QObject {
  public:
   MeasureTool(ImageView& view, ViewState& state, QObject* parent = nullptr);
 
-  static QString help();
   bool isActive() const { return active_; }
   void setActive(bool active);
   /// "123.4 px, 45.67 mm", or empty.

@@ -2,7 +2,8 @@
 #include "ui/views/overlay_painters.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <limits>
 
 #include <QtWidgets>
 
@@ -22,10 +23,7 @@ void paintLoupeCross(QPainter& painter, const QSizeF& loupe) {
   painter.setBrush(Qt::NoBrush);
   for (const QPen& pen : {QPen(kRim, 3.0), QPen(kLoupeCrossColor, 1.0)}) {
     painter.setPen(pen);
-    painter.drawLine(QPointF(0.0, middle.y()), middle - QPointF(kGap, 0.0));
-    painter.drawLine(middle + QPointF(kGap, 0.0), QPointF(loupe.width(), middle.y()));
-    painter.drawLine(QPointF(middle.x(), 0.0), middle - QPointF(0.0, kGap));
-    painter.drawLine(middle + QPointF(0.0, kGap), QPointF(middle.x(), loupe.height()));
+    paintTicks(painter, middle, kGap, middle.x());
   }
 }
 
@@ -35,12 +33,10 @@ const QColor kCasing(0, 0, 0, 170);
 const QColor kLabelGround(0, 0, 0, 130);
 constexpr double kStripFill = 0.45;
 
-double length(const QPointF& vector) { return std::hypot(vector.x(), vector.y()); }
-
 void paintArrow(QPainter& painter, const QPointF& from, const QPointF& to) {
   painter.drawLine(from, to);
   const QPointF way = to - from;
-  const double long_px = length(way);
+  const double long_px = distance_px(from, to);
   if (long_px < 1.0) {
     painter.drawPoint(to);
     return;
@@ -66,6 +62,22 @@ void paintStrip(QPainter& painter, const QPolygonF& outline) {
   const auto half = outline.size() / 2;
   painter.drawPolyline(outline.mid(0, half));
   painter.drawPolyline(outline.mid(half));
+}
+
+template <class Pixels>
+QPolygonF onWidget(const ViewTransform& transform, const Pixels& pixels) {
+  QPolygonF polygon;
+  for (const QPointF& pixel : pixels) polygon << transform.toWidget(pixel);
+  return polygon;
+}
+
+/// The lines or the centre of a mark on the widget.
+QPolygonF markLines(const ViewTransform& transform, const Mark& mark) {
+  if (mark.shape == MarkShape::kArrow || mark.shape == MarkShape::kSegment)
+    return onWidget(transform, std::array{mark.at, mark.to});
+  if (mark.shape == MarkShape::kRectangle) return transform.toWidget(mark.area);
+  if (mark.shape == MarkShape::kStrip) return onWidget(transform, mark.outline);
+  return onWidget(transform, std::array{mark.at});
 }
 
 void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& mark) {
@@ -107,12 +119,9 @@ void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& m
     case MarkShape::kRectangle:
       painter.drawRect(transform.toWidget(mark.area));
       break;
-    case MarkShape::kStrip: {
-      QPolygonF outline;
-      for (const QPointF& pixel : mark.outline) outline << transform.toWidget(pixel);
-      paintStrip(painter, outline);
+    case MarkShape::kStrip:
+      paintStrip(painter, onWidget(transform, mark.outline));
       break;
-    }
   }
 }
 
@@ -140,7 +149,7 @@ double distanceToSegment(const QPointF& from, const QPointF& to, const QPointF& 
   const double squared = QPointF::dotProduct(way, way);
   const double share =
       squared > 0.0 ? std::clamp(QPointF::dotProduct(place - from, way) / squared, 0.0, 1.0) : 0.0;
-  return length(place - (from + way * share));
+  return distance_px(place, from + way * share);
 }
 
 void paintTicks(QPainter& painter, const QPointF& at, double from, double to) {
@@ -180,39 +189,19 @@ void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& ma
 }
 
 double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget) {
-  const QPointF at = transform.toWidget(mark.at);
-  if (mark.shape == MarkShape::kArrow || mark.shape == MarkShape::kSegment)
-    return distanceToSegment(at, transform.toWidget(mark.to), widget);
-  if (mark.shape == MarkShape::kRectangle) {
-    const QRectF area = transform.toWidget(mark.area);
-    return std::min(std::min(distanceToSegment(area.topLeft(), area.topRight(), widget),
-                             distanceToSegment(area.topRight(), area.bottomRight(), widget)),
-                    std::min(distanceToSegment(area.bottomRight(), area.bottomLeft(), widget),
-                             distanceToSegment(area.bottomLeft(), area.topLeft(), widget)));
-  }
-  return std::max(0.0, length(widget - at) - 0.5 * mark.size_px);
+  const QPolygonF lines = markLines(transform, mark);
+  if (lines.size() == 1) return std::max(0.0, distance_px(widget, lines[0]) - 0.5 * mark.size_px);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 1; i < lines.size(); ++i)
+    nearest = std::min(nearest, distanceToSegment(lines[i - 1], lines[i], widget));
+  return nearest;
 }
 
 bool reaches(const ViewTransform& transform, const Mark& mark, const QRectF& area) {
   constexpr double kLabelHeight = 40.0;
   const double margin = mark.size_px + mark.width + kLabelHeight;
-  double top = transform.toWidget(mark.at).y();
-  double bottom = top;
-  const auto extend = [&](const QPointF& pixel) {
-    const double y = transform.toWidget(pixel).y();
-    top = std::min(top, y);
-    bottom = std::max(bottom, y);
-  };
-  if (mark.shape == MarkShape::kArrow || mark.shape == MarkShape::kSegment) extend(mark.to);
-  if (mark.shape == MarkShape::kRectangle) {
-    top = bottom = transform.toWidget(mark.area.topLeft()).y();
-    extend(mark.area.bottomRight());
-  }
-  if (mark.shape == MarkShape::kStrip && !mark.outline.isEmpty()) {
-    top = bottom = transform.toWidget(mark.outline.front()).y();
-    for (const QPointF& pixel : mark.outline) extend(pixel);
-  }
-  return bottom + margin >= area.top() && top - margin <= area.bottom();
+  const QRectF lines = markLines(transform, mark).boundingRect();
+  return lines.bottom() + margin >= area.top() && lines.top() - margin <= area.bottom();
 }
 
 namespace {
@@ -221,38 +210,22 @@ constexpr double kCorner = 3.5;
 
 void paintTrack(QPainter& painter, const QPolygonF& track, double width, const QColor& color) {
   painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  if (track.size() == 1) {
-    painter.drawPoint(track.front());
-  } else {
-    painter.drawPolyline(track);
-  }
+  track.size() == 1 ? painter.drawPoint(track.front()) : painter.drawPolyline(track);
 }
 
-/// How large the brush is: dark under bright, seen on any image.
-void paintRim(QPainter& painter, const QPointF& at, double radius, const QColor& color) {
-  QColor line = color;
-  line.setAlphaF(1.0);
-  painter.setBrush(Qt::NoBrush);
-  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.0), QPen(line, 1.5)}) {
-    painter.setPen(pen);
-    painter.drawEllipse(at, radius, radius);
-  }
+/// Dark under bright: seen on any image.
+std::array<QPen, 2> previewPens(QColor color) {
+  color.setAlphaF(1.0);
+  return {QPen(QColor(0, 0, 0, 160), 3.0), QPen(color, 1.5)};
 }
 
 void paintOutline(QPainter& painter, const QPolygonF& outline, const QColor& color, bool filled) {
-  QColor line = color;
-  line.setAlphaF(1.0);
-  // Dark under bright: seen on any image.
-  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.0), QPen(line, 1.5)}) {
+  for (const QPen& pen : previewPens(color)) {
     painter.setPen(pen);
-    painter.setBrush(filled ? QBrush(color) : QBrush(Qt::NoBrush));
-    if (filled) {
-      painter.drawPolygon(outline);
-    } else {
-      painter.drawPolyline(outline);
-    }
+    painter.setBrush(color);
+    filled ? painter.drawPolygon(outline) : painter.drawPolyline(outline);
   }
-  painter.setBrush(line);
+  painter.setBrush(painter.pen().color());
   if (!filled)
     for (const QPointF& corner : outline)
       painter.drawRect(
@@ -279,17 +252,18 @@ void paintNote(QPainter& painter, const QPointF& top_left, const QString& text) 
 
 void paintPreview(QPainter& painter, const ViewTransform& transform, const ToolPreview& preview) {
   if (preview.points.empty()) return;
-  QPolygonF points;
-  for (const QPointF& pixel : preview.points) points << transform.toWidget(pixel);
-  painter.setRenderHint(QPainter::Antialiasing, true);
+  const QPolygonF points = onWidget(transform, preview.points);
   if (preview.radius_px > 0.0) {
     const double radius = preview.radius_px * transform.scale();
     paintTrack(painter, points, 2.0 * radius, preview.color);
-    paintRim(painter, points.back(), radius, preview.color);
+    painter.setBrush(Qt::NoBrush);
+    for (const QPen& pen : previewPens(preview.color)) {
+      painter.setPen(pen);
+      painter.drawEllipse(points.back(), radius, radius);
+    }
   } else {
     paintOutline(painter, points, preview.color, preview.filled);
   }
-  painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
 }  // namespace boresight::ui

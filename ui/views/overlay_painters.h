@@ -13,8 +13,6 @@
 #include "ui/views/layer.h"
 #include "ui/views/view_transform.h"
 
-class QPainter;
-
 namespace boresight::ui {
 
 inline constexpr QColor kLoupeCrossColor(255, 255, 255, 210);

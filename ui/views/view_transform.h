@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 #include <QMouseEvent>
 #include <QPointF>
@@ -23,8 +25,19 @@ inline QPointF pointerPlace(const QMouseEvent& event, const QWidget& widget) {
   return corner + QPointF(half, half);
 }
 
-/// A pixel as a Qt point.
+/// A pixel as a Qt point, and back.
 inline QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
+inline Eigen::Vector2d vectorOf(const QPointF& point) { return {point.x(), point.y()}; }
+
+inline double distance_px(const QPointF& a, const QPointF& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
+
+/// Direction of an arrow key on the screen; zero for other keys.
+inline QPointF arrowOf(int key) {
+  return QPointF((key == Qt::Key_Right) - (key == Qt::Key_Left),
+                 (key == Qt::Key_Down) - (key == Qt::Key_Up));
+}
 
 /// Between image pixels (the centre of the top-left one is (0, 0)) and the widget's coordinates:
 /// widget = (pixel + 0.5) * scale + offset, so that a pixel covers a square of side `scale`.
@@ -35,8 +48,12 @@ class ViewTransform {
 
   double scale() const { return scale_; }
   QPointF toWidget(const QPointF& pixel) const;
+  template <class Pixel>
+  QPointF toWidget(const Eigen::MatrixBase<Pixel>& pixel) const {
+    return toWidget(pointOf(pixel));
+  }
   QPointF toPixel(const QPointF& widget) const;
-  /// Corners of pixels on the widget: the whole image is imageRect({-0.5, -0.5, width, height}).
+  /// Corners of pixels on the widget: the whole image is toWidget({-0.5, -0.5, width, height}).
   QRectF toWidget(const QRectF& pixels) const;
 
   /// Shows the whole image, centred.

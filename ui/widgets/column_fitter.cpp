@@ -20,11 +20,11 @@ ColumnFitter::ColumnFitter(QAbstractItemView& view, QHeaderView& header,
                            std::vector<int> dispensable)
     : QObject(&view), view_(view), header_(header), dispensable_(std::move(dispensable)) {
   view_.viewport()->installEventFilter(this);
-  const QAbstractItemModel* model = view_.model();
-  connect(model, &QAbstractItemModel::modelReset, this, &ColumnFitter::fit, Qt::QueuedConnection);
-  connect(model, &QAbstractItemModel::rowsInserted, this, &ColumnFitter::fit, Qt::QueuedConnection);
-  connect(model, &QAbstractItemModel::layoutChanged, this, &ColumnFitter::fit,
-          Qt::QueuedConnection);
+  const auto fit_later = [this] {
+    QMetaObject::invokeMethod(this, &ColumnFitter::fit, Qt::QueuedConnection);
+  };
+  connectEach(*view_.model(), this, fit_later, &QAbstractItemModel::modelReset,
+              &QAbstractItemModel::rowsInserted, &QAbstractItemModel::layoutChanged);
 }
 
 bool ColumnFitter::eventFilter(QObject* watched, QEvent* event) {

@@ -35,24 +35,15 @@ int rankOf(const QString& name, const QStringList& words) {
 
 }  // namespace
 
-CommandPalette::CommandPalette(QMenuBar& menus, QWidget* parent)
-    : QDialog(parent), line_(new QLineEdit), list_(new QListWidget) {
-  setWindowTitle(tr("Find a command"));
+CommandPalette::CommandPalette(QMenuBar& menus, QWidget* parent) : QDialog(parent) {
+  ui_.setupUi(this);
   resize(kWidth, kHeight);
-  auto* column = new QVBoxLayout(this);
-  column->addWidget(line_);
-  column->addWidget(list_, 1);
-  line_->setObjectName(QStringLiteral("commandLine"));
-  list_->setObjectName(QStringLiteral("commands"));
-  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  line_->setPlaceholderText(tr("Parts of a name, such as \"step iter\""));
-  line_->setClearButtonEnabled(true);
-  line_->installEventFilter(this);
+  ui_.commandLine->installEventFilter(this);
   for (QAction* action : menus.actions())
     if (const QMenu* menu = action->menu()) collect(*menu, plain(menu->title()));
-  connect(line_, &QLineEdit::textChanged, this, &CommandPalette::filter);
-  connect(line_, &QLineEdit::returnPressed, this, &CommandPalette::run);
-  connect(list_, &QListWidget::itemActivated, this, &CommandPalette::run);
+  connect(ui_.commandLine, &QLineEdit::textChanged, this, &CommandPalette::filter);
+  connect(ui_.commandLine, &QLineEdit::returnPressed, this, &CommandPalette::run);
+  connect(ui_.commands, &QListWidget::itemActivated, this, &CommandPalette::run);
   filter({});
 }
 
@@ -60,17 +51,10 @@ void CommandPalette::collect(const QMenu& menu, const QString& path) {
   for (QAction* action : menu.actions()) {
     const QString name = path + QStringLiteral(" > ") + plain(action->text());
     if (const QMenu* inner = action->menu())
-      collect(*inner, path + QStringLiteral(" > ") + plain(inner->title()));
+      collect(*inner, name);
     else if (!action->isSeparator() && !action->text().isEmpty() && action->isVisible())
       commands_.push_back({name, action});
   }
-}
-
-QStringList CommandPalette::names() const {
-  QStringList result;
-  for (int i = 0; i < list_->count(); ++i)
-    result << commands_[static_cast<std::size_t>(list_->item(i)->data(kCommand).toInt())].name;
-  return result;
 }
 
 void CommandPalette::filter(const QString& text) {
@@ -82,25 +66,25 @@ void CommandPalette::filter(const QString& text) {
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  list_->clear();
+  ui_.commands->clear();
   for (const auto& [rank, index] : found) {
     const Command& command = commands_[index];
     const QString keys = command.action->shortcut().toString(QKeySequence::NativeText);
     auto* item = new QListWidgetItem(
         command.action->icon(),
         keys.isEmpty() ? command.name : QStringLiteral("%1    (%2)").arg(command.name, keys),
-        list_);
+        ui_.commands);
     item->setData(kCommand, static_cast<int>(index));
     item->setToolTip(command.action->toolTip());
     if (!command.action->isEnabled()) item->setFlags(item->flags() & ~Qt::ItemIsEnabled);
   }
-  for (int i = 0; i < list_->count() && list_->currentRow() < 0; ++i)
-    if ((list_->item(i)->flags() & Qt::ItemIsEnabled) != 0) list_->setCurrentRow(i);
+  for (int i = 0; i < ui_.commands->count() && ui_.commands->currentRow() < 0; ++i)
+    if ((ui_.commands->item(i)->flags() & Qt::ItemIsEnabled) != 0) ui_.commands->setCurrentRow(i);
 }
 
 /// After the dialog is gone: what the action opens has the focus then.
 void CommandPalette::run() {
-  const QListWidgetItem* item = list_->currentItem();
+  const QListWidgetItem* item = ui_.commands->currentItem();
   if (!item) return;
   const QPointer<QAction> action =
       commands_[static_cast<std::size_t>(item->data(kCommand).toInt())].action;
@@ -111,11 +95,11 @@ void CommandPalette::run() {
 
 /// Arrows move in the list while the line has the focus.
 bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == line_ && event->type() == QEvent::KeyPress) {
+  if (watched == ui_.commandLine && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if (key == Qt::Key_Up || key == Qt::Key_Down || key == Qt::Key_PageUp ||
         key == Qt::Key_PageDown)
-      return QCoreApplication::sendEvent(list_, event);
+      return QCoreApplication::sendEvent(ui_.commands, event);
   }
   return QDialog::eventFilter(watched, event);
 }

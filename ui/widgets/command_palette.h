@@ -6,9 +6,9 @@
 #include <QDialog>
 #include <QPointer>
 
+#include "ui_command_palette.h"
+
 class QAction;
-class QLineEdit;
-class QListWidget;
 class QMenu;
 class QMenuBar;
 
@@ -21,9 +21,6 @@ class CommandPalette : public QDialog {
 
  public:
   explicit CommandPalette(QMenuBar& menus, QWidget* parent = nullptr);
-
-  /// Names that are listed now, the best first.
-  QStringList names() const;
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -39,8 +36,7 @@ class CommandPalette : public QDialog {
   void run();
 
   std::vector<Command> commands_;
-  QLineEdit* line_;
-  QListWidget* list_;
+  Ui::CommandPalette ui_;
 };
 
 }  // namespace boresight::ui

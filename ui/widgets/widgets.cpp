@@ -11,6 +11,8 @@ namespace boresight::ui {
 
 namespace {
 
+constexpr int kMostWarnings = 2;  ///< of a banner
+
 QString rowText(const QAbstractItemModel& model, int row) {
   QStringList cells;
   for (int column = 0; column < model.columnCount(); ++column)
@@ -161,6 +163,12 @@ void setUpTable(QTableView& table, QAbstractItemModel& model) {
   styleTable(table);
 }
 
+void followRow(QTableView& table, const QModelIndex& row, bool& following) {
+  const QScopedValueRollback<bool> from_here(following, true);
+  table.setCurrentIndex(row);
+  if (row.isValid()) table.scrollTo(row);
+}
+
 void addRow(QTableWidget& table, const QStringList& texts) {
   const int row = table.rowCount();
   table.setRowCount(row + 1);
@@ -183,8 +191,35 @@ void setTip(QAction& action, const QString& tip) {
   action.setStatusTip(tip);
 }
 
-IconLabel::IconLabel(int size_px, QWidget* parent) : QWidget(parent) {
-  setFixedSize(size_px, size_px);
+void clearLayout(QLayout& layout) {
+  while (QLayoutItem* item = layout.takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+}
+
+void clearLayoutLater(QLayout& layout) {
+  while (QLayoutItem* item = layout.takeAt(0)) {
+    if (QWidget* widget = item->widget()) {
+      widget->hide();
+      widget->deleteLater();
+    }
+    delete item;
+  }
+}
+
+void restyle(std::initializer_list<QWidget*> widgets) {
+  for (QWidget* each : widgets) {
+    each->style()->unpolish(each);
+    each->style()->polish(each);
+  }
+}
+
+QLabel* captionLabel(const QString& text) {
+  auto* label = new QLabel(text);
+  label->setProperty("caption", true);
+  label->setWordWrap(true);
+  return label;
 }
 
 void IconLabel::setIcon(Icon icon, QRgb Theme::*color) {
@@ -228,11 +263,9 @@ EmptyHint::EmptyHint(QAbstractItemView& view, int least_rows)
   setMargin(12);
   setAttribute(Qt::WA_TransparentForMouseEvents);
   view.viewport()->installEventFilter(this);
-  const QAbstractItemModel* model = view.model();
-  connect(model, &QAbstractItemModel::modelReset, this, &EmptyHint::showOrHide);
-  connect(model, &QAbstractItemModel::rowsInserted, this, &EmptyHint::showOrHide);
-  connect(model, &QAbstractItemModel::rowsRemoved, this, &EmptyHint::showOrHide);
-  connect(model, &QAbstractItemModel::layoutChanged, this, &EmptyHint::showOrHide);
+  connectEach(*view.model(), this, &EmptyHint::showOrHide, &QAbstractItemModel::modelReset,
+              &QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved,
+              &QAbstractItemModel::layoutChanged);
   showOrHide();
 }
 
@@ -254,48 +287,25 @@ bool EmptyHint::eventFilter(QObject* watched, QEvent* event) {
   return QLabel::eventFilter(watched, event);
 }
 
-namespace {
-
-constexpr int kMostShown = 2;  // warnings
-
-}  // namespace
-
-Banner::Banner(QWidget* parent)
-    : QFrame(parent),
-      sign_(new QLabel(this)),
-      text_(named(new QLabel(this), "bannerText")),
-      action_(named(new QToolButton(this), "bannerAction")) {
-  setFrameShape(QFrame::StyledPanel);
-  setAutoFillBackground(true);
+Banner::Banner(QWidget* parent) : QFrame(parent) {
+  ui_.setupUi(this);
   QFont large = font();
   large.setPointSizeF(1.4 * large.pointSizeF());
   large.setBold(true);
-  sign_->setFont(large);
-  text_->setWordWrap(true);
-  text_->setTextFormat(Qt::PlainText);
-  text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  action_->hide();
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(8, 3, 8, 3);
-  row->addWidget(sign_);
-  row->addWidget(text_, 1);
-  row->addWidget(action_);
-  connect(action_, &QToolButton::clicked, this, &Banner::actionRequested);
+  ui_.bannerSign->setFont(large);
+  connect(ui_.bannerAction, &QToolButton::clicked, this, &Banner::actionRequested);
 }
 
 void Banner::setAction(const QString& text, const QString& tip) {
-  action_->setText(text);
-  action_->setToolTip(tip);
-  action_->show();
+  ui_.bannerAction->setText(text);
+  ui_.bannerAction->setToolTip(tip);
+  ui_.bannerAction->show();
 }
 
-QString Banner::text() const { return text_->text(); }
+QString Banner::text() const { return ui_.bannerText->text(); }
 
 void Banner::showRun(const sessions::LocalizationTrace* run) {
-  if (run == nullptr) {
-    setMessage(QStringLiteral("○"), tr("No run yet."), Tone::kPlain);
-    return;
-  }
+  if (!run) return setMessage(QStringLiteral("○"), tr("No run yet."), Tone::kPlain);
   const QString text = fromText(sessions::runStatusText(*run));
   if (run->converged())
     setMessage(QStringLiteral("✓"), text, Tone::kGood);
@@ -306,20 +316,20 @@ void Banner::showRun(const sessions::LocalizationTrace* run) {
 }
 
 void Banner::setMessage(const QString& sign, const QString& text, Tone tone) {
-  sign_->setText(sign);
-  sign_->setVisible(!sign.isEmpty());
-  text_->setText(text);
-  text_->setToolTip(text);
+  ui_.bannerSign->setText(sign);
+  ui_.bannerSign->setVisible(!sign.isEmpty());
+  ui_.bannerText->setText(text);
+  ui_.bannerText->setToolTip(text);
   tone_ = tone;
   applyPalette();
 }
 
 void Banner::showWarnings(const QStringList& sentences) {
-  const int more = static_cast<int>(sentences.size()) - kMostShown;
-  QStringList shown = sentences.mid(0, kMostShown);
+  const int more = static_cast<int>(sentences.size()) - kMostWarnings;
+  QStringList shown = sentences.mid(0, kMostWarnings);
   if (more > 0) shown.append(tr("and %1 more").arg(more));
   setMessage(QStringLiteral("⚠"), shown.join(QLatin1Char('\n')), Tone::kBad);
-  text_->setToolTip(sentences.join(QLatin1Char('\n')));
+  ui_.bannerText->setToolTip(sentences.join(QLatin1Char('\n')));
   setVisible(!sentences.isEmpty());
 }
 
@@ -337,7 +347,7 @@ void Banner::changeEvent(QEvent* event) {
   QFrame::changeEvent(event);
   const bool look =
       event->type() == QEvent::ApplicationPaletteChange || event->type() == QEvent::StyleChange;
-  if (look && !tinting_ && action_ != nullptr) applyPalette();
+  if (look && !tinting_ && ui_.bannerAction != nullptr) applyPalette();
 }
 
 }  // namespace boresight::ui

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <initializer_list>
+
 #include <QAction>
+#include <QComboBox>
 #include <QFrame>
 #include <QKeySequence>
 #include <QLabel>
 #include <QStringList>
 #include <QToolButton>
 
+#include "ui_banner.h"
+
 #include "sessions/trace/trace.h"
 #include "ui/style/icons.h"
 
 class QAbstractItemModel;
 class QAbstractItemView;
-class QLabel;
 class QTableView;
 class QTableWidget;
 
@@ -26,6 +30,10 @@ void styleTable(QTableView& table);
 bool hasChosenColumns(const QAbstractItemView& view);
 /// Sets the model of a table and styles it.
 void setUpTable(QTableView& table, QAbstractItemModel& model);
+
+/// Chooses a row and scrolls to it; an invalid index: none. Meanwhile `following` is true, since
+/// the choice is not the operator's.
+void followRow(QTableView& table, const QModelIndex& row, bool& following);
 
 /// Appends a row of texts: the first left aligned, the others (figures) right aligned.
 void addRow(QTableWidget& table, const QStringList& texts);
@@ -43,6 +51,33 @@ inline QKeySequence keys(const char* text) { return QKeySequence(QLatin1String(t
 
 /// A tip that names the keys of the action, if there are any.
 void setTip(QAction& action, const QString& tip);
+
+/// The layout, without margins.
+template <class Layout>
+Layout* withoutMargins(Layout* layout, int spacing = 0) {
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(spacing);
+  return layout;
+}
+/// Deletes the items of a layout and their widgets.
+void clearLayout(QLayout& layout);
+/// The same, where one of the widgets may be handling an event: they are hidden, and deleted later.
+void clearLayoutLater(QLayout& layout);
+/// Applies the style sheet again, after a change of properties that its rules name.
+void restyle(std::initializer_list<QWidget*> widgets);
+
+/// A small, gray text that wraps.
+QLabel* captionLabel(const QString& text);
+
+/// Another entry of a list is chosen, by the operator or by the program.
+inline constexpr auto kIndexChanged = QOverload<int>::of(&QComboBox::currentIndexChanged);
+
+/// Calls a function of the receiver at each of these signals of the sender.
+template <class Sender, class Receiver, class Function, class... Signals>
+void connectEach(Sender& sender, Receiver* receiver, Function function, Signals... signals) {
+  (QObject::connect(&sender, signals, receiver, function), ...);
+}
+
 /// States in an empty list why it is empty and what to do. Lies over the view and takes no clicks.
 class EmptyHint : public QLabel {
   Q_OBJECT
@@ -62,12 +97,12 @@ class EmptyHint : public QLabel {
   int least_rows_;
 };
 
-/// An icon in a colour of the theme in use.
+/// An icon in a colour of the theme in use, as large as the widget.
 class IconLabel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit IconLabel(int size_px, QWidget* parent = nullptr);
+  using QWidget::QWidget;
 
   void setIcon(Icon icon, QRgb Theme::*color = &Theme::text);
 
@@ -130,9 +165,7 @@ class Banner : public QFrame {
 
   Tone tone_ = Tone::kPlain;
   bool tinting_ = false;
-  QLabel* sign_ = nullptr;
-  QLabel* text_ = nullptr;
-  QToolButton* action_ = nullptr;
+  Ui::Banner ui_{};
 };
 
 }  // namespace boresight::ui

@@ -24,7 +24,7 @@ QString annotationsFilter() {
 
 }  // namespace
 
-AnnotationFiles::AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel)
+AnnotationFiles::AnnotationFiles(QWidget& window, WindowParts& parts, AnnotationPanel& panel)
     : QObject(&window), window_(window), parts_(parts) {
   QMenu& menu = panel.filesMenu();
   menu.addAction(tr("Import annotations ..."), this, &AnnotationFiles::importAnnotations);
@@ -45,10 +45,8 @@ AnnotationFiles::AnnotationFiles(QWidget& window, const WindowParts& parts, Anno
     importPoses(&sessions::importBop,
                 tr("Folder of a BOP scene (scene_gt.json, scene_camera.json)"));
   });
-  connect(&panel.landmarksMenu(), &LandmarksMenu::openRequested, this,
-          &AnnotationFiles::openLandmarks);
-  connect(&panel.landmarksMenu(), &LandmarksMenu::saveRequested, this,
-          &AnnotationFiles::saveLandmarks);
+  connect(&panel, &AnnotationPanel::openLandmarksRequested, this, &AnnotationFiles::openLandmarks);
+  connect(&panel, &AnnotationPanel::saveLandmarksRequested, this, &AnnotationFiles::saveLandmarks);
 }
 
 template <class Action>

@@ -22,7 +22,7 @@ class AnnotationFiles : public QObject {
   Q_OBJECT
 
  public:
-  AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel);
+  AnnotationFiles(QWidget& window, WindowParts& parts, AnnotationPanel& panel);
 
   /// Replaces the annotations of the shown case by those of a points.json or a table (.csv).
   void importAnnotations();
@@ -37,7 +37,7 @@ class AnnotationFiles : public QObject {
  private:
   using Exporter = sessions::ExportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&,
-                                              const sessions::CasePoses&,
+                                              const sessions::HandedPoses&,
                                               const sessions::ExportProgress&);
   using Importer = sessions::ImportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&, bool);
@@ -55,7 +55,7 @@ class AnnotationFiles : public QObject {
   void attempt(Action&& action);
 
   QWidget& window_;
-  WindowParts parts_;
+  WindowParts& parts_;
 };
 
 }  // namespace boresight::ui

@@ -5,6 +5,7 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <utility>
 
 #include <QtWidgets>
 
@@ -25,7 +26,6 @@
 #include "ui/style/icons.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
-#include "ui/window/image_share.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/main_window.h"
 #include "ui/workspaces/workspaces.h"
@@ -42,22 +42,22 @@ class ProgramStyle : public QProxyStyle {
   /// Message boxes and heads of panels have the icons of the bars, in the colours of the theme.
   QIcon standardIcon(StandardPixmap which, const QStyleOption* option,
                      const QWidget* widget) const override {
-    switch (which) {
-      case SP_MessageBoxInformation:
-        return iconOf(Icon::kInfo, &Theme::accent);
-      case SP_MessageBoxQuestion:
-        return iconOf(Icon::kHelp, &Theme::accent);
-      case SP_MessageBoxWarning:
-        return iconOf(Icon::kWarning, &Theme::warning_text);
-      case SP_MessageBoxCritical:
-        return iconOf(Icon::kCross, &Theme::failure_text);
-      case SP_TitleBarCloseButton:
-        return iconOf(Icon::kCross, &Theme::text2);
-      case SP_TitleBarNormalButton:
-        return iconOf(Icon::kFloat, &Theme::text2);
-      default:
-        return QProxyStyle::standardIcon(which, option, widget);
-    }
+    struct Own {
+      StandardPixmap which;
+      Icon icon;
+      QRgb Theme::*color;
+    };
+    static constexpr Own kOwn[] = {
+        {SP_MessageBoxInformation, Icon::kInfo, &Theme::accent},
+        {SP_MessageBoxQuestion, Icon::kHelp, &Theme::accent},
+        {SP_MessageBoxWarning, Icon::kWarning, &Theme::warning_text},
+        {SP_MessageBoxCritical, Icon::kCross, &Theme::failure_text},
+        {SP_TitleBarCloseButton, Icon::kCross, &Theme::text2},
+        {SP_TitleBarNormalButton, Icon::kFloat, &Theme::text2},
+    };
+    for (const Own& own : kOwn)
+      if (own.which == which) return iconOf(own.icon, own.color);
+    return QProxyStyle::standardIcon(which, option, widget);
   }
 
   /// Buttons of dialogs are words, as everywhere else.
@@ -163,12 +163,9 @@ void nameApplication(QApplication& application) {
   application.setStyle(new ProgramStyle);
 }
 
+/// Each check returns a problem, or "".
 int runSelfTest(std::ostream& output) {
-  struct NamedCheck {
-    const char* name;
-    std::string (*check)();  ///< what went wrong, or ""
-  };
-  constexpr NamedCheck kChecks[] = {
+  constexpr std::pair<const char*, std::string (*)()> kChecks[] = {
       {"the example stations converge", checkRuns},
       {"pausing at every stage changes no bit", checkStepping},
       {"an edit survives a killed program", checkDocument},
@@ -176,15 +173,15 @@ int runSelfTest(std::ostream& output) {
       {"the window opens", checkWindow},
   };
   int failed = 0;
-  for (const NamedCheck& each : kChecks) {
+  for (const auto& [name, check] : kChecks) {
     std::string problem;
     try {
-      problem = each.check();
+      problem = check();
     } catch (const std::exception& error) {
       problem = error.what();
     }
     if (!problem.empty()) ++failed;
-    output << (problem.empty() ? "passed  " : "FAILED  ") << each.name
+    output << (problem.empty() ? "passed  " : "FAILED  ") << name
            << (problem.empty() ? "" : ": " + problem) << "\n";
   }
   output << static_cast<int>(std::size(kChecks)) - failed << " passed, " << failed << " failed\n";
@@ -194,8 +191,8 @@ int runSelfTest(std::ostream& output) {
 namespace {
 
 constexpr int kPatienceMs = 120'000;
-constexpr double kAnnotationScale =
-    2.0;  // of the image round an annotation that the operator works on
+/// Scale of the image around an annotation that the operator works on.
+constexpr double kAnnotationScale = 2.0;
 
 /// Lets the event loop run until something holds; false when it takes too long.
 bool waitUntil(const std::function<bool()>& holds) {
@@ -251,6 +248,16 @@ bool workOn(MainWindow& window, const QString& annotation) {
 
 }  // namespace
 
+double imageShare(MainWindow& window) {
+  ImageView& view = window.image().view();
+  if (!view.isVisible() || !window.state().currentCase()) return 0.0;
+  const auto& image = window.state().currentCase()->image;
+  const QPointF first = view.transform().toWidget({-0.5, -0.5});
+  const QPointF last = view.transform().toWidget({image.width - 0.5, image.height - 0.5});
+  const QRectF shown = QRectF(first, last).intersected(QRectF(view.rect()));
+  return shown.width() * shown.height() / (1.0 * window.width() * window.height());
+}
+
 QString openForPictures(MainWindow& window, const std::filesystem::path& session,
                         const std::filesystem::path& folder) {
   try {
@@ -293,11 +300,7 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     if (!waitUntil([&] { return (window.state().snapshot() || refused()) && resting(); }))
       return QObject::tr("the run did not end");
   }
-  if (order.iteration > -2) {
-    RunCursor cursor;
-    cursor.iteration = order.iteration;
-    window.state().setCursor(cursor);
-  }
+  if (order.iteration > -2) window.state().setCursor({.iteration = order.iteration});
   auto* hypotheses = window.findChild<HypothesesPanel*>();
   if (order.hypothesis > hypotheses->model().rowCount())
     return QObject::tr("the shown run has %1 competing poses, candidates and rolled hypotheses")

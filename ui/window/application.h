@@ -41,6 +41,10 @@ struct ScreenshotOrder {
   double* share = nullptr;  ///< receives the share of the window that shows the image
 };
 
+/// The share of the window, 0 .. 1, that shows the image: its part inside the view that no other
+/// widget covers.
+double imageShare(MainWindow& window);
+
 /// Shows a session with its unsaved edits without writing next to it: it is copied to `folder`,
 /// which must outlive the window's document. Returns "" or the reason of a failure.
 QString openForPictures(MainWindow& window, const std::filesystem::path& session,

@@ -27,10 +27,18 @@ bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
 
 constexpr int kPatience_ms = 100;  ///< between looks whether a store has failed
 
-sessions::Session withRuns(sessions::Session session,
-                           const std::vector<sessions::RunRecord>& records) {
-  for (const sessions::RunRecord& run : records) session = sessions::withRun(session, run);
-  return session;
+void requirePlan(const sessions::RunPlan& plan) {
+  const std::string problem = sessions::planProblem(plan);
+  if (!problem.empty()) throw std::runtime_error(problem + ".");
+}
+
+ViewState::SnapshotPtr readRun(const sessions::RunRecord& run) {
+  return std::make_shared<const sessions::LocalizationTrace>(sessions::loadSnapshot(run));
+}
+
+/// The cursor after the last iteration.
+RunCursor atEndOf(const sessions::LocalizationTrace& run) {
+  return {static_cast<int>(run.iterations.size()) - 1, Stage::kFinished};
 }
 
 }  // namespace
@@ -44,8 +52,7 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
     if (!run_.snapshot()) return;
     state_.setSnapshot(run_.snapshot());
     if (std::exchange(is_new_run_, false))  // wherever the run before was looked at
-      state_.setCursor(
-          {static_cast<int>(run_.snapshot()->iterations.size()) - 1, Stage::kFinished});
+      state_.setCursor(atEndOf(*run_.snapshot()));
   });
   connect(&run_, &RunController::finished, this, &CaseController::storeRun);
   connect(&run_, &RunController::failed, this, [this](const QString& message) {
@@ -69,19 +76,19 @@ void CaseController::documentOpened() {
   batch_.dropSummary();
   unstored_.clear();
   const sessions::Session& session = document_.session();
-  QString first = QString::fromStdString(session.view.case_id);
-  if (!session.findCase(session.view.case_id))
-    first = session.cases.empty() ? QString() : QString::fromStdString(session.cases.front()->id);
+  std::string first = session.view.case_id;
+  if (!session.findCase(first)) first = session.cases.empty() ? "" : session.cases.front()->id;
   state_.setCase(nullptr);  // not of another document, nor of this one before its recovery
-  if (!first.isEmpty()) return chooseCase(first);
+  if (!first.empty()) return chooseCase(fromText(first));
   run_.reset({});
   Q_EMIT caseChosen(QString());
 }
 
 void CaseController::documentChanged() {
+  // The session was saved: perhaps there is room now.
   if (!unstored_.empty() && (document_.file() != unstored_file_ || !document_.isModified()))
-    storeAgain();
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+    for (const EndedRun& ended : std::exchange(unstored_, {})) store(ended);
+  const sessions::SessionCase* session_case = sessionCase();
   if (!session_case) return documentOpened();
   // Another seed, mask or image than the one that is shown.
   if (!asked_ || !sameButNudge(*asked_, *session_case)) load(case_id_);
@@ -90,26 +97,31 @@ void CaseController::documentChanged() {
 }
 
 void CaseController::chooseCase(const QString& id) {
-  if (id != case_id_) show(id);
-}
-
-void CaseController::show(const QString& id) {
+  if (id == case_id_) return;
   case_id_ = id;
-  run_.reset({});
-  run_is_prepared_ = false;
+  dropRun();
   Q_EMIT caseChosen(id);
   load(id);
 }
 
+const sessions::SessionCase* CaseController::sessionCase() const {
+  return document_.session().findCase(case_id_.toStdString());
+}
+
+void CaseController::dropRun() {
+  run_.reset({});
+  run_is_prepared_ = false;
+}
+
 /// Whether the case that the views have is the document's as it is now.
 bool CaseController::isLoaded() const {
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  const sessions::SessionCase* session_case = sessionCase();
   return session_case && state_.currentCase() &&
          sameButNudge(state_.currentCase()->source, *session_case);
 }
 
 void CaseController::showNudgedPose() {
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  const sessions::SessionCase* session_case = sessionCase();
   working_ = session_case ? session_case->camera_from_station_working : std::nullopt;
   const ViewState::CasePtr& shown = state_.currentCase();
   if (shown && session_case && shown->source.id == session_case->id &&
@@ -140,15 +152,14 @@ void CaseController::loadFailed(const QString& id, const QString& message) {
   run_when_loaded_.reset();
   load_problem_ = message;
   const ViewState::CasePtr& shown = state_.currentCase();
-  if (shown && QString::fromStdString(shown->source.id) != id) state_.setCase(nullptr);
+  if (shown && fromText(shown->source.id) != id) state_.setCase(nullptr);
   Q_EMIT failed(message);
 }
 
 void CaseController::loaded(const QString& id,
                             std::shared_ptr<const sessions::LoadedCase> loaded_case) {
   if (id != case_id_) return;
-  run_.reset({});
-  run_is_prepared_ = false;
+  dropRun();
   const ViewState::CasePtr& before = state_.currentCase();
   const bool edited = before && before->source.id == loaded_case->source.id;
   // A run that has not ended cannot continue with other inputs; a finished one stays and is stale.
@@ -186,11 +197,8 @@ void CaseController::loadLatestRun(const QString& id) {
     return runIfWaiting();
   }
   tasks_.start(
-      QStringLiteral("load run"),
-      [run = *record](const std::stop_token&) {
-        return std::make_shared<const sessions::LocalizationTrace>(sessions::loadSnapshot(run));
-      },
-      [this, id](std::shared_ptr<const sessions::LocalizationTrace> snapshot) {
+      QStringLiteral("load run"), [run = *record](const std::stop_token&) { return readRun(run); },
+      [this, id](ViewState::SnapshotPtr snapshot) {
         reads_run_ = false;
         if (id != case_id_ || run_is_prepared_) return;
         state_.setSnapshot(std::move(snapshot));
@@ -203,7 +211,7 @@ void CaseController::loadLatestRun(const QString& id) {
 }
 
 LocalizerOptions CaseController::options() const {
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  const sessions::SessionCase* session_case = sessionCase();
   if (!session_case) return sessions::sessionOptions(document_.session(), document_.file());
   return sessions::caseOptions(document_.session(), *session_case, document_.file());
 }
@@ -211,19 +219,18 @@ LocalizerOptions CaseController::options() const {
 QString CaseController::staleness() const {
   const ViewState::SnapshotPtr& shown = state_.snapshot();
   if (!shown || shown->replayed) return {};
-  const sessions::RunRecord* record = nullptr;
-  for (const sessions::RunRecord& run : document_.session().runs)
-    if (run.case_id == case_id_.toStdString() && run.digest == shown->digest) record = &run;
+  const std::string id = case_id_.toStdString();
+  const sessions::RunRecord* record =
+      shown->digest.empty() ? nullptr : sessions::findRun(document_.session(), id, shown->digest);
   if (!record && storing_) return {};  // the run before says nothing of one that has just ended
-  if (!record) record = document_.session().lastRunOf(case_id_.toStdString());
+  if (!record) record = document_.session().lastRunOf(id);
   if (!record) return {};
   const sessions::Staleness stale =
       sessions::stalenessOf(*record, document_.session(), document_.file());
   if (stale.inputs_changed && stale.options_changed)
     return tr("The run was made with other inputs and options.");
   if (stale.inputs_changed) return tr("The run was made with other inputs.");
-  if (stale.options_changed) return tr("The run was made with other options.");
-  return {};
+  return stale.options_changed ? tr("The run was made with other options.") : QString();
 }
 
 void CaseController::prepareRun(RunInputs inputs) {
@@ -269,14 +276,13 @@ void CaseController::requireLoaded() const {
 void CaseController::runPlan(const sessions::RunPlan& plan) {
   start([&] {
     requireLoaded();
-    const std::string problem = sessions::planProblem(plan);
-    if (!problem.empty()) throw std::runtime_error(problem + ".");
+    requirePlan(plan);
     prepareRun({.plan = plan});
   });
 }
 
 QString CaseController::whyNotRunnable() const {
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  const sessions::SessionCase* session_case = sessionCase();
   if (!session_case) return tr("Open a case first");
   if (input_concern_) return fromText(input_concern_->text);
   return session_case->has_seed
@@ -285,7 +291,7 @@ QString CaseController::whyNotRunnable() const {
 }
 
 QString CaseController::whyAlone() const {
-  return QString::fromStdString(sessions::whyAlone(document_.session(), case_id_.toStdString()));
+  return fromText(sessions::whyAlone(document_.session(), case_id_.toStdString()));
 }
 
 void CaseController::runTogether() {
@@ -299,10 +305,7 @@ void CaseController::runTogether() {
 
 void CaseController::rerunFrom(int iteration) {
   if (!state_.snapshot() || run_.state() == RunState::kWorking) return;
-  if (iteration < 1) {
-    reset();
-    return advance(StepUntil::kEnd);
-  }
+  if (iteration < 1) return runAgain();
   start([&] { prepareRerun(iteration); });
 }
 
@@ -329,8 +332,7 @@ void CaseController::prepareRerun(int iteration) {
   inputs.plan = sessions::continuedPlan(shown.plan(), iteration, options());
   inputs.kept.assign(shown.iterations.begin(), shown.iterations.begin() + iteration);
   inputs.continued = shown.digest;
-  const std::string problem = sessions::planProblem(inputs.plan);
-  if (!problem.empty()) throw std::runtime_error(problem + ".");
+  requirePlan(inputs.plan);
   prepareRun(std::move(inputs));
 }
 
@@ -342,10 +344,14 @@ void CaseController::stop() {
 
 void CaseController::reset() {
   run_.stop();
-  run_.reset({});
-  run_is_prepared_ = false;
+  dropRun();
   state_.setSnapshot(nullptr);
   Q_EMIT stalenessChanged();
+}
+
+void CaseController::runAgain() {
+  reset();
+  advance(StepUntil::kEnd);
 }
 
 void CaseController::storeRun() {
@@ -373,7 +379,7 @@ void CaseController::store(const EndedRun& ended) {
   ++storing_;
   // Of a key of its own: no run's storing replaces another's.
   tasks_.start(
-      QStringLiteral("store run %1").arg(QString::fromStdString(ended.snapshot->digest)),
+      QStringLiteral("store run %1").arg(fromText(ended.snapshot->digest)),
       [ended, file = document_.file()](const std::stop_token&) {
         try {
           return Stored{recordsOf(ended, file), {}};
@@ -404,19 +410,15 @@ void CaseController::store(const EndedRun& ended) {
 /// A run that is repeated within a second has the record that the session has. It is not noted: a
 /// session that stays unmodified counts as saved, and runs without room would be stored again.
 bool CaseController::noteRuns(const std::vector<sessions::RunRecord>& records) {
-  const sessions::Session after = withRuns(document_.session(), records);
+  sessions::Session after = document_.session();
+  for (const sessions::RunRecord& run : records) after = sessions::withRun(after, run);
   return after == document_.session() ||
          document_.note(after, tr("Run %1").arg(fromText(records.front().case_id)));
 }
 
-/// The session was saved: perhaps there is room now.
-void CaseController::storeAgain() {
-  for (const EndedRun& ended : std::exchange(unstored_, {})) store(ended);
-}
-
 QStringList CaseController::unstoredRuns() const {
   QStringList ids;
-  for (const EndedRun& ended : unstored_) ids << QString::fromStdString(ended.case_id);
+  for (const EndedRun& ended : unstored_) ids << fromText(ended.case_id);
   return ids;
 }
 
@@ -466,8 +468,7 @@ void CaseController::runNext() {
 void CaseController::showRunOf(const std::string& case_id) {
   if (case_id != case_id_.toStdString() || run_.state() == RunState::kWorking || !isLoaded())
     return;
-  run_.reset({});
-  run_is_prepared_ = false;
+  dropRun();
   loadLatestRun(case_id_);
 }
 
@@ -491,29 +492,32 @@ void CaseController::changeInput(const QString& id, sessions::InputKind kind,
       [this](const QString& problem) { Q_EMIT failed(problem); });
 }
 
+bool CaseController::editCase(const std::function<void(sessions::SessionCase&)>& change,
+                              const QString& text) {
+  return sessionCase() &&
+         document_.edit(sessions::withChanged(document_.session(), case_id_.toStdString(), change),
+                        text.arg(case_id_));
+}
+
 void CaseController::useAsSeed(const Pose& camera_from_station) {
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
-  if (!session_case) return;
-  sessions::SessionCase changed = *session_case;
-  changed.has_seed = true;
-  changed.camera_from_station_seed = camera_from_station;
-  changed.camera_from_station_working.reset();
-  document_.edit(sessions::withCase(document_.session(), std::move(changed)),
-                 tr("Move the seed of %1").arg(case_id_));
+  editCase(
+      [&](sessions::SessionCase& changed) {
+        changed.has_seed = true;
+        changed.camera_from_station_seed = camera_from_station;
+        changed.camera_from_station_working.reset();
+      },
+      tr("Move the seed of %1"));
 }
 
 void CaseController::runWithUncertainty(const sessions::DeclaredUncertainty& uncertainty) {
-  const std::string id = case_id_.toStdString();
-  const bool edited = document_.edit(
-      sessions::withChanged(document_.session(), id,
-                            [&](sessions::SessionCase& one) { one.uncertainty = uncertainty; }),
-      tr("State the uncertainty of the seed of %1").arg(case_id_));
-  if (edited) advance(StepUntil::kEnd);
+  if (editCase([&](sessions::SessionCase& changed) { changed.uncertainty = uncertainty; },
+               tr("State the uncertainty of the seed of %1")))
+    advance(StepUntil::kEnd);
 }
 
 void CaseController::runWithWiderSearch() {
   constexpr double kHalfTurn_deg = 180.0;
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  const sessions::SessionCase* session_case = sessionCase();
   if (!session_case) return;
   sessions::DeclaredUncertainty wider = session_case->uncertainty;
   wider.rotation_deg.z() = kHalfTurn_deg;
@@ -521,17 +525,17 @@ void CaseController::runWithWiderSearch() {
 }
 
 void CaseController::keepNudgedPose() {
-  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  const sessions::SessionCase* session_case = sessionCase();
   const ViewState::CasePtr& shown = state_.currentCase();
   // In a session that cannot be edited the operator may nudge to look.
   if (!session_case || !shown || shown->source.id != session_case->id ||
       !document_.readOnlyReason().isEmpty())
     return;
-  sessions::SessionCase changed = *session_case;
-  changed.camera_from_station_working = state_.nudgedPose();
-  const QString text =
-      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1");
-  document_.edit(sessions::withCase(document_.session(), std::move(changed)), text.arg(case_id_));
+  editCase(
+      [this](sessions::SessionCase& changed) {
+        changed.camera_from_station_working = state_.nudgedPose();
+      },
+      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1"));
 }
 
 void CaseController::setOptions(const QString& profile, const LocalizerOptions& options) {
@@ -540,21 +544,15 @@ void CaseController::setOptions(const QString& profile, const LocalizerOptions& 
 }
 
 void CaseController::showRun(const std::string& digest) {
-  const auto& runs = document_.session().runs;
-  const auto found = std::find_if(runs.begin(), runs.end(), [&](const sessions::RunRecord& run) {
-    return run.digest == digest && run.case_id == case_id_.toStdString();
-  });
-  if (found == runs.end() || run_.state() == RunState::kWorking) return;
+  const sessions::RunRecord* found =
+      sessions::findRun(document_.session(), case_id_.toStdString(), digest);
+  if (!found || run_.state() == RunState::kWorking) return;
   tasks_.start(
-      QStringLiteral("load run"),
-      [run = *found](const std::stop_token&) {
-        return std::make_shared<const sessions::LocalizationTrace>(sessions::loadSnapshot(run));
-      },
-      [this, id = case_id_](std::shared_ptr<const sessions::LocalizationTrace> snapshot) {
+      QStringLiteral("load run"), [run = *found](const std::stop_token&) { return readRun(run); },
+      [this, id = case_id_](ViewState::SnapshotPtr snapshot) {
         if (id != case_id_) return;
         state_.setSnapshot(std::move(snapshot));
-        state_.setCursor(
-            {static_cast<int>(state_.snapshot()->iterations.size()) - 1, Stage::kFinished});
+        state_.setCursor(atEndOf(*state_.snapshot()));
       });
 }
 

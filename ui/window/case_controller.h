@@ -22,7 +22,6 @@
 namespace boresight::ui {
 
 class Document;
-class TaskRunner;
 
 /// Connects document, worker and view state: a chosen case is read and shown with its latest run; a
 /// run is shown while it proceeds and stored when it ends.
@@ -46,6 +45,8 @@ class CaseController : public QObject {
   QString staleness() const;
   /// Why the case cannot be run together with other views, one sentence; empty when it can.
   QString whyAlone() const;
+  /// Whether a run or a batch is under way.
+  bool isWorking() const { return run_.state() == RunState::kWorking || batch_.isActive(); }
   /// The batch under way, from reading its first case to storing its last run; else empty.
   const std::optional<BatchProgress>& batch() const { return batch_.progress(); }
   /// How the last batch ended; empty while one runs, and from the next run on.
@@ -70,6 +71,8 @@ class CaseController : public QObject {
   void stop();
   /// Drops the shown run; the next step starts a new one.
   void reset();
+  /// Runs the case from its seed, with the current inputs and options.
+  void runAgain();
   /// Runs cases in the background: the shown case stays, and its run is shown when it has ended.
   void runAll(const QStringList& ids);
   /// Runs the cases that have no run with their current inputs and options.
@@ -119,8 +122,10 @@ class CaseController : public QObject {
 
   void documentOpened();
   void documentChanged();
-  void show(const QString& id);
+  const sessions::SessionCase* sessionCase() const;
   bool isLoaded() const;
+  void dropRun();
+  bool editCase(const std::function<void(sessions::SessionCase&)>& change, const QString& text);
   void load(const QString& id);
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> loaded_case);
   void loadFailed(const QString& id, const QString& message);
@@ -136,7 +141,6 @@ class CaseController : public QObject {
                                                     const std::filesystem::path& file);
   void store(const EndedRun& ended);
   bool noteRuns(const std::vector<sessions::RunRecord>& records);
-  void storeAgain();
   void runNext();
   void endBatch();
   void showRunOf(const std::string& case_id);

@@ -11,6 +11,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/run_text.h"
 #include "ui/models/text.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"
@@ -102,15 +103,32 @@ void CaseDetails::setSession(const sessions::Session& session) {
   if (!reading_) readNext();
 }
 
+/// False when it is known already.
+template <class Value, class Read>
+bool CaseDetails::read(std::map<std::string, Value>& known, const std::string& key, Read make) {
+  if (known.contains(key)) return false;
+  tasks_.start(
+      QStringLiteral("case details"), [make](const std::stop_token&) { return make(); },
+      [this, &known, key](Value value) {
+        known[key] = std::move(value);
+        tellSoon();
+      });
+  return true;
+}
+
 void CaseDetails::readNext() {
   const auto& cases = std::as_const(session_).cases;
   reading_ = true;
   for (; next_ < cases.size(); ++next_)
-    if (readThumbnail(cases[next_]->image)) return;
+    if (read(thumbnails_, cases[next_]->image.source.sha256,
+             [image = cases[next_]->image] { return thumbnailOf(image); }))
+      return;
   for (; next_ < 2 * cases.size(); ++next_) {
     const sessions::SessionCase& session_case = *cases[next_ - cases.size()];
     const sessions::RunRecord* run = session_.lastRunOf(session_case.id);
-    if (run && session_case.camera_from_station_truth && readPose(*run)) return;
+    if (run && session_case.camera_from_station_truth &&
+        read(poses_, run->digest, [run = *run] { return resultOf(run); }))
+      return;
   }
   reading_ = false;
   if (!pause_.isActive()) return;
@@ -122,29 +140,6 @@ void CaseDetails::readNext() {
 void CaseDetails::tellSoon() {
   if (!pause_.isActive()) pause_.start();
   readNext();
-}
-
-bool CaseDetails::readThumbnail(const sessions::ImageInput& image) {
-  if (thumbnails_.count(image.source.sha256) > 0) return false;
-  tasks_.start(
-      QStringLiteral("case details"),
-      [image](const std::stop_token&) { return thumbnailOf(image); },
-      [this, key = image.source.sha256](QImage picture) {
-        thumbnails_[key] = std::move(picture);
-        tellSoon();
-      });
-  return true;
-}
-
-bool CaseDetails::readPose(const sessions::RunRecord& run) {
-  if (poses_.count(run.digest) > 0) return false;
-  tasks_.start(
-      QStringLiteral("case details"), [run](const std::stop_token&) { return resultOf(run); },
-      [this, key = run.digest](const std::optional<Pose>& camera_from_station) {
-        poses_[key] = camera_from_station;
-        tellSoon();
-      });
-  return true;
 }
 
 void CaseDetails::fillErrors(const sessions::SessionCase& session_case, CaseRow& row) const {

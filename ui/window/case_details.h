@@ -45,8 +45,8 @@ class CaseDetails : public QObject {
  private:
   void readNext();
   void tellSoon();
-  bool readThumbnail(const sessions::ImageInput& image);
-  bool readPose(const sessions::RunRecord& run);
+  template <class Value, class Read>
+  bool read(std::map<std::string, Value>& known, const std::string& key, Read make);
   void fillErrors(const sessions::SessionCase& session_case, CaseRow& row) const;
 
   TaskRunner& tasks_;

@@ -12,9 +12,19 @@
 namespace boresight::ui {
 namespace {
 
-using sessions::InputKind;
-
 QString changeText(const char* text) { return QCoreApplication::translate("ChangeInput", text); }
+
+struct InputText {
+  const char* name;
+  const char* filter;
+};
+/// In the order of `InputKind`.
+constexpr InputText kInputTexts[] = {
+    {"image", "Images (*.png *.jpg *.jpeg *.tif *.tiff *.img *.IMG *.vic *.VIC *.lbl *.LBL *.xml)"},
+    {"camera", "Cameras (*.json *.cahv *.cahvor *.cahvore)"},
+    {"mesh", "Meshes (*.ply *.obj *.stl *.gltf *.glb)"},
+    {"seed", "Poses and transforms (*.json)"},
+};
 
 /// Empty when the operator has cancelled.
 std::string askUnit(QWidget& window, const QString& mesh, const std::string& former) {
@@ -30,26 +40,15 @@ std::string askUnit(QWidget& window, const QString& mesh, const std::string& for
 }  // namespace
 
 QString inputName(InputKind kind) {
-  return kind == InputKind::kImage    ? changeText("image")
-         : kind == InputKind::kCamera ? changeText("camera")
-         : kind == InputKind::kMesh   ? changeText("mesh")
-                                      : changeText("seed");
+  return changeText(kInputTexts[static_cast<std::size_t>(kind)].name);
 }
 
 QString inputFilter(InputKind kind) {
-  const QString files =
-      kind == InputKind::kImage
-          ? changeText(
-                "Images (*.png *.jpg *.jpeg *.tif *.tiff *.img *.IMG *.vic *.VIC *.lbl "
-                "*.LBL *.xml)")
-      : kind == InputKind::kCamera ? changeText("Cameras (*.json *.cahv *.cahvor *.cahvore)")
-      : kind == InputKind::kMesh   ? changeText("Meshes (*.ply *.obj *.stl *.gltf *.glb)")
-                                   : changeText("Poses and transforms (*.json)");
-  return files + changeText(";;All files (*)");
+  return changeText(kInputTexts[static_cast<std::size_t>(kind)].filter) +
+         changeText(";;All files (*)");
 }
 
-void askForInput(const WindowParts& parts, QWidget& window, const QString& case_id,
-                 InputKind kind) {
+void askForInput(WindowParts& parts, QWidget& window, const QString& case_id, InputKind kind) {
   const sessions::SessionCase* found = parts.document.session().findCase(case_id.toStdString());
   if (!found) return;
   const std::filesystem::path former =
@@ -67,7 +66,7 @@ void askForInput(const WindowParts& parts, QWidget& window, const QString& case_
   parts.cases.changeInput(case_id, kind, file.toStdString(), unit);
 }
 
-void askForMeshUnit(const WindowParts& parts, QWidget& window, const QString& case_id) {
+void askForMeshUnit(WindowParts& parts, QWidget& window, const QString& case_id) {
   const sessions::SessionCase* found = parts.document.session().findCase(case_id.toStdString());
   if (!found) return;
   const sessions::PartSource source = found->parts.front().source;
@@ -76,17 +75,15 @@ void askForMeshUnit(const WindowParts& parts, QWidget& window, const QString& ca
   if (!unit.empty()) parts.cases.changeInput(case_id, InputKind::kMesh, source.mesh, unit);
 }
 
-void addChangeInput(QMenu& menu, const WindowParts& parts, QWidget& window,
-                    const QString& case_id) {
-  for (int i = 0; i < sessions::kInputKinds; ++i) {
-    const auto kind = static_cast<InputKind>(i);
+void addChangeInput(QMenu& menu, WindowParts& parts, QWidget& window, const QString& case_id) {
+  for (const InputKind kind : kAllInputs) {
     QString text = inputName(kind);
     text[0] = text[0].toUpper();
     menu.addAction(changeText("%1...").arg(text), &parts.cases,
-                   [parts, &window, case_id, kind] { askForInput(parts, window, case_id, kind); });
+                   [&parts, &window, case_id, kind] { askForInput(parts, window, case_id, kind); });
   }
   menu.addAction(changeText("Unit of the mesh..."), &parts.cases,
-                 [parts, &window, case_id] { askForMeshUnit(parts, window, case_id); });
+                 [&parts, &window, case_id] { askForMeshUnit(parts, window, case_id); });
 }
 
 }  // namespace boresight::ui

@@ -17,12 +17,12 @@ QString inputName(sessions::InputKind kind);
 QString inputFilter(sessions::InputKind kind);
 
 /// Asks for another file of this kind; for a mesh also for its unit. Undo restores the former one.
-void askForInput(const WindowParts& parts, QWidget& window, const QString& case_id,
+void askForInput(WindowParts& parts, QWidget& window, const QString& case_id,
                  sessions::InputKind kind);
 /// Asks for another unit of the mesh.
-void askForMeshUnit(const WindowParts& parts, QWidget& window, const QString& case_id);
+void askForMeshUnit(WindowParts& parts, QWidget& window, const QString& case_id);
 
 /// Adds an entry for each input, and the mesh's unit.
-void addChangeInput(QMenu& menu, const WindowParts& parts, QWidget& window, const QString& case_id);
+void addChangeInput(QMenu& menu, WindowParts& parts, QWidget& window, const QString& case_id);
 
 }  // namespace boresight::ui

@@ -13,7 +13,11 @@ namespace boresight::ui {
 
 namespace {
 
-/// What a file is, as what it does to the files taken so far.
+/// In the order of `InputKind`.
+constexpr const char* kMissingNames[] = {"an image", "a camera (json)", "a mesh",
+                                         "a seed pose (json)"};
+
+/// Adds a file of one kind to the files taken so far.
 using Take = void (*)(const std::filesystem::path& file, DroppedFiles& taken);
 
 /// Throws when the label of an image cannot be read or lacks its pixels.
@@ -107,45 +111,52 @@ Take takeOf(const std::filesystem::path& file) {
 
 }  // namespace
 
-bool DroppedFiles::isCase() const {
-  return !one.image.empty() && hasCamera() && !one.seed.empty() && !one.parts.empty();
+bool DroppedFiles::has(InputKind kind) const {
+  const bool labelled = label_camera_remark && label_camera_remark->empty();
+  return !fileOf(kind).empty() || (kind == InputKind::kCamera && labelled);
 }
 
-bool DroppedFiles::isSeedless() const {
-  return !one.image.empty() && hasCamera() && one.seed.empty() && !one.parts.empty();
+std::filesystem::path DroppedFiles::fileOf(InputKind kind) const {
+  switch (kind) {
+    case InputKind::kImage:
+      return one.image;
+    case InputKind::kCamera:
+      return one.camera;
+    case InputKind::kMesh:
+      return one.parts.empty() ? std::filesystem::path() : one.parts.front().mesh;
+    case InputKind::kSeed:
+      return one.seed;
+  }
+  return {};
 }
 
 int DroppedFiles::count() const {
-  return (one.image.empty() ? 0 : 1) + (hasCamera() ? 1 : 0) + (one.parts.empty() ? 0 : 1) +
-         (one.seed.empty() ? 0 : 1);
+  return static_cast<int>(
+      std::ranges::count_if(kAllInputs, [this](InputKind kind) { return has(kind); }));
 }
 
-bool DroppedFiles::hasCamera() const {
-  return !one.camera.empty() || (label_camera_remark && label_camera_remark->empty());
+bool DroppedFiles::isCase() const { return count() == sessions::kInputKinds; }
+
+bool DroppedFiles::isSeedless() const {
+  return count() == sessions::kInputKinds - 1 && !has(InputKind::kSeed);
 }
 
 bool DroppedFiles::isRecordAlone() const {
-  return record && !dataset && one.image.empty() && one.camera.empty() && one.seed.empty() &&
-         one.parts.empty() && !one.truth;
+  return record && !dataset && count() == 0 && !one.truth;
 }
 
 std::string DroppedFiles::missing() const {
   std::vector<std::string> names;
-  if (one.image.empty()) names.emplace_back("an image");
-  if (!hasCamera())
-    names.emplace_back("a camera (json)" +
-                       (label_camera_remark ? ": " + *label_camera_remark : ""));
-  if (one.parts.empty()) names.emplace_back("a mesh");
-  if (one.seed.empty()) names.emplace_back("a seed pose (json)");
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
-    text += names[i];
+  for (const InputKind kind : kAllInputs) {
+    if (has(kind)) continue;
+    names.emplace_back(kMissingNames[static_cast<std::size_t>(kind)]);
+    if (kind == InputKind::kCamera && label_camera_remark)
+      names.back() += ": " + *label_camera_remark;
   }
-  return text;
+  return sessions::listText(names);
 }
 
-bool DroppedFiles::beginsAnew(const DroppedFiles& earlier) const {
+bool DroppedFiles::startsNewCase(const DroppedFiles& earlier) const {
   const bool more =
       !one.camera.empty() || !one.seed.empty() || !one.parts.empty() || one.truth.has_value();
   return isCase() || (!one.image.empty() && !earlier.one.image.empty() && more);

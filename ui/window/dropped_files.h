@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sessions/session/session_maker.h"
+#include "sessions/session/case_inputs.h"
 
 namespace boresight::ui {
+
+using sessions::InputKind;
+
+inline constexpr std::array kAllInputs = {InputKind::kImage, InputKind::kCamera, InputKind::kMesh,
+                                          InputKind::kSeed};
 
 /// Kinds of files that were dropped or opened together.
 struct DroppedFiles {
@@ -22,16 +28,18 @@ struct DroppedFiles {
   std::vector<std::string> problems;  ///< one sentence each: files of an unknown kind, or two of
                                       ///< the same kind
 
+  bool has(InputKind kind) const;  ///< of a camera also in the image's label
+  /// "" when there is none; of a mesh the first part's.
+  std::filesystem::path fileOf(InputKind kind) const;
   /// The files of a case that are still missing, for the operator: "a camera and a seed", or "".
   std::string missing() const;
   bool isCase() const;         ///< an image, a camera, a mesh and a seed
   bool isSeedless() const;     ///< an image, a camera and a mesh, which can be annotated
   int count() const;           ///< of the four files of a case
-  bool hasCamera() const;      ///< a separate file, or the label of the image
   bool isRecordAlone() const;  ///< an onboard record without files of a case
   /// Whether these files start a new case, independent of an earlier drop: a whole case, or another
   /// image together with further files.
-  bool beginsAnew(const DroppedFiles& earlier) const;
+  bool startsNewCase(const DroppedFiles& earlier) const;
   /// Names of the files of an earlier drop that these do not replace: "a.png, b.json", or "".
   std::string keptNames(const DroppedFiles& earlier) const;
 };

@@ -15,7 +15,7 @@ namespace boresight::ui {
 
 using sessions::FindingKind;
 
-InputFindings::InputFindings(const WindowParts& parts, Banner& bar, QWidget& window)
+InputFindings::InputFindings(WindowParts& parts, Banner& bar, QWidget& window)
     : QObject(&window), parts_(parts), bar_(bar), window_(window) {
   connect(&parts_.document, &Document::opened, this, &InputFindings::check);
   connect(&bar_, &Banner::actionRequested, this, &InputFindings::repair);
@@ -33,19 +33,15 @@ void InputFindings::check() {
       QStringLiteral("first case read"), [](const std::stop_token&) { return true; },
       [this](bool) {
         waits_ = false;
-        compare();
-      });
-}
-
-void InputFindings::compare() {
-  tasks_.start(
-      QStringLiteral("check"),
-      [session = parts_.document.session()](const std::stop_token&) {
-        return sessions::checkInputs(session);
-      },
-      [this](std::vector<sessions::Finding> findings) {
-        findings_ = std::move(findings);
-        show();
+        tasks_.start(
+            QStringLiteral("check"),
+            [session = parts_.document.session()](const std::stop_token&) {
+              return sessions::checkInputs(session);
+            },
+            [this](std::vector<sessions::Finding> findings) {
+              findings_ = std::move(findings);
+              show();
+            });
       });
 }
 

@@ -22,7 +22,7 @@ class InputFindings : public QObject {
   Q_OBJECT
 
  public:
-  InputFindings(const WindowParts& parts, Banner& bar, QWidget& window);
+  InputFindings(WindowParts& parts, Banner& bar, QWidget& window);
 
   const std::vector<sessions::Finding>& findings() const { return findings_; }
   bool isBusy() const { return waits_ || tasks_.isBusy(); }
@@ -39,13 +39,12 @@ class InputFindings : public QObject {
 
  private:
   void check();
-  void compare();
   void show();
   bool has(sessions::FindingKind kind) const;
   void findMoved();
   void acceptChanged();
 
-  WindowParts parts_;
+  WindowParts& parts_;
   Banner& bar_;
   QWidget& window_;
   TaskRunner tasks_;

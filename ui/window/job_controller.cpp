@@ -11,6 +11,7 @@
 #include "ui/run/sequence_runner.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 
 namespace boresight::ui {
@@ -23,18 +24,17 @@ Job endedJob(const BatchSummary& batch) {
   QStringList ends;
   for (const auto& [end, count] : batch.ends) ends << QStringLiteral("%1 %2").arg(count).arg(end);
   const bool whole = batch.count() == batch.of;
-  Job job;
-  job.name = whole
-                 ? JobController::tr("%1 run in %2").arg(batch.of).arg(durationText(batch.seconds))
-                 : JobController::tr("Stopped after %1 of %2").arg(batch.count()).arg(batch.of);
-  job.detail = ends.join(QStringLiteral(", "));
-  job.step = whole ? Step::kShowBatch : Step::kRunRest;
-  return job;
+  return {
+      .name = whole
+                  ? JobController::tr("%1 run in %2").arg(batch.of).arg(durationText(batch.seconds))
+                  : JobController::tr("Stopped after %1 of %2").arg(batch.count()).arg(batch.of),
+      .detail = ends.join(QStringLiteral(", ")),
+      .step = whole ? Step::kShowBatch : Step::kRunRest};
 }
 
 }  // namespace
 
-JobController::JobController(const WindowParts& parts, ReviewController& review, JobStrip& strip,
+JobController::JobController(WindowParts& parts, ReviewController& review, JobStrip& strip,
                              QObject* parent)
     : QObject(parent),
       parts_(parts),
@@ -42,75 +42,77 @@ JobController::JobController(const WindowParts& parts, ReviewController& review,
       strip_(strip),
       escape_(new QShortcut(Qt::Key_Escape, &strip)) {
   connect(&strip_, &JobStrip::stopRequested, this, &JobController::stop);
-  connect(&parts_.run, &RunController::stateChanged, this, &JobController::update);
-  connect(&parts_.run, &RunController::snapshotChanged, this, &JobController::update);
-  connect(&parts_.cases, &CaseController::batchChanged, this, &JobController::update);
-  connect(&parts_.cases, &CaseController::caseChosen, this, &JobController::update);
-  connect(&parts_.tasks, &TaskRunner::busyChanged, this, &JobController::update);
-  connect(&parts_.document, &Document::opened, this, &JobController::update);
-  connect(&parts_.document, &Document::changed, this, &JobController::update);
-  connect(&parts_.sequence, &SequenceRunner::changed, this, &JobController::update);
-  connect(&parts_.exports, &ExportRunner::changed, this, &JobController::update);
-  connect(&review_, &ReviewController::convergenceChanged, this, &JobController::update);
-  connect(&review_, &ReviewController::checksChanged, this, &JobController::update);
+  const auto refresh = [this] { update(); };
+  connectEach(parts_.run, this, refresh, &RunController::stateChanged,
+              &RunController::snapshotChanged);
+  connectEach(parts_.cases, this, refresh, &CaseController::batchChanged,
+              &CaseController::caseChosen);
+  connectEach(parts_.document, this, refresh, &Document::opened, &Document::changed);
+  connectEach(review_, this, refresh, &ReviewController::convergenceChanged,
+              &ReviewController::checksChanged);
+  connect(&parts_.tasks, &TaskRunner::busyChanged, this, refresh);
+  connect(&parts_.sequence, &SequenceRunner::changed, this, refresh);
+  connect(&parts_.exports, &ExportRunner::changed, this, refresh);
   connect(escape_, &QShortcut::activated, this, &JobController::stop);
   update();
 }
 
 Job JobController::runJob() const {
-  Job job;
-  job.runs = parts_.run.state() == RunState::kWorking;
   const auto& trace = parts_.run.snapshot();
+  const auto complete = trace ? trace->complete() : 0;
   const QString id = parts_.cases.caseId();
-  if (job.runs) {
-    job.name = tr("Running");
-    const auto iteration = trace ? trace->complete() + 1 : 1;
-    job.detail = tr("%1, iteration %2").arg(id).arg(iteration);
-  } else if (parts_.run.state() == RunState::kHalted) {
-    const auto complete = trace ? trace->complete() : 0;
-    job.name = complete > 0 ? tr("Paused after iteration %1").arg(complete) : tr("Paused");
-  } else if (const auto& batch = parts_.cases.lastBatch()) {
-    return endedJob(*batch);
-  } else if (parts_.run.state() == RunState::kFinished && trace) {
-    job.name = tr("Finished");
-    job.detail = tr("%1: %2 iterations, %3 s")
-                     .arg(id)
-                     .arg(trace->iterations.size())
-                     .arg(numberText(trace->seconds.total(), 2));
-  } else {
-    job.name = tr("Ready");
-  }
-  return job;
+  const RunState state = parts_.run.state();
+  if (state == RunState::kWorking)
+    return {.name = tr("Running"),
+            .detail = tr("%1, iteration %2").arg(id).arg(complete + 1),
+            .runs = true};
+  if (state == RunState::kHalted)
+    return {.name = complete > 0 ? tr("Paused after iteration %1").arg(complete) : tr("Paused")};
+  if (const auto& batch = parts_.cases.lastBatch()) return endedJob(*batch);
+  if (state != RunState::kFinished || !trace) return {.name = tr("Ready")};
+  return {.name = tr("Finished"),
+          .detail = tr("%1: %2 iterations, %3 s")
+                        .arg(id)
+                        .arg(trace->iterations.size())
+                        .arg(numberText(trace->seconds.total(), 2))};
 }
 
 Job JobController::job() const {
   if (const auto& batch = parts_.cases.batch()) {
-    Job job{tr("Running all cases"), {}, batch->done, batch->of, batch->seconds_left, true};
-    if (!batch->case_id.isEmpty())
-      job.detail = batch->iteration > 0
-                       ? tr("%1, iteration %2").arg(batch->case_id).arg(batch->iteration)
-                       : batch->case_id;
-    return job;
+    const QString iteration =
+        batch->iteration > 0 ? tr(", iteration %1").arg(batch->iteration) : QString();
+    return {.name = tr("Running all cases"),
+            .detail = batch->case_id.isEmpty() ? QString() : batch->case_id + iteration,
+            .done = batch->done,
+            .of = batch->of,
+            .seconds_left = batch->seconds_left,
+            .runs = true};
   }
   const Job run = runJob();
-  if (!run.runs && parts_.sequence.isRunning()) {
-    const SequenceProgress& sequence = parts_.sequence.progress();
-    return {tr("Running a sequence"),
-            tr("%1 frames/s, %2 lost").arg(numberText(sequence.frames_per_s, 1)).arg(sequence.lost),
-            static_cast<int>(sequence.done),
-            static_cast<int>(sequence.of),
-            std::nullopt,
-            true};
-  }
   if (run.runs) return run;
+  if (parts_.sequence.isRunning()) {
+    const SequenceProgress& sequence = parts_.sequence.progress();
+    return {
+        .name = tr("Running a sequence"),
+        .detail =
+            tr("%1 frames/s, %2 lost").arg(numberText(sequence.frames_per_s, 1)).arg(sequence.lost),
+        .done = static_cast<int>(sequence.done),
+        .of = static_cast<int>(sequence.of),
+        .runs = true};
+  }
   if (review_.isConvergenceTestRunning())
-    return {tr("Convergence test"),      {},           review_.convergenceSoFar().seeds,
-            sessions::kConvergenceSeeds, std::nullopt, true};
+    return {.name = tr("Convergence test"),
+            .done = review_.convergenceSoFar().seeds,
+            .of = sessions::kConvergenceSeeds,
+            .runs = true};
   if (!parts_.exports.isBusy()) return run;
   const ExportJob& written = parts_.exports.job();
-  Job job{written.name, written.detail, written.done, written.of, std::nullopt, true};
-  job.stops = false;
-  return job;
+  return {.name = written.name,
+          .detail = written.detail,
+          .done = written.done,
+          .of = written.of,
+          .runs = true,
+          .stops = false};
 }
 
 void JobController::update() {

@@ -18,8 +18,7 @@ class JobController : public QObject {
   Q_OBJECT
 
  public:
-  JobController(const WindowParts& parts, ReviewController& review, JobStrip& strip,
-                QObject* parent);
+  JobController(WindowParts& parts, ReviewController& review, JobStrip& strip, QObject* parent);
 
   Job job() const;
   void update();
@@ -29,7 +28,7 @@ class JobController : public QObject {
  private:
   Job runJob() const;
 
-  WindowParts parts_;
+  WindowParts& parts_;
   ReviewController& review_;
   JobStrip& strip_;
   QShortcut* escape_;

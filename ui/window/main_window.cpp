@@ -49,12 +49,6 @@ QMainWindow* bodyIn(QMainWindow& window) {
 
 MainWindow::MainWindow(QWidget* parent)
     : QMainWindow(parent),
-      cases_(document_, state_, run_, tasks_),
-      annotation_(document_, state_),
-      onboard_(document_, state_, tasks_),
-      quality_(document_, state_, tasks_),
-      parts_{document_,   state_,   tasks_,   run_,      cases_,
-             annotation_, onboard_, quality_, sequence_, exports_},
       body_(bodyIn(*this)),
       docks_(std::make_unique<WindowDocks>(*body_, *this, parts_)),
       workspaces_(new Workspaces(*body_, docks_->all(), this)),
@@ -76,8 +70,6 @@ ImagePanel& MainWindow::image() { return docks_->image; }
 
 QDockWidget* MainWindow::dock(const QString& name) const { return workspaces_->dock(name); }
 
-TopBar& MainWindow::topBar() { return frame_->topBar(); }
-
 /// The whole window is on the screen at the first start, with its title.
 void MainWindow::resizeToScreen() {
   constexpr QSize kFirst(1280, 800);
@@ -89,10 +81,13 @@ void MainWindow::resizeToScreen() {
 
 void MainWindow::connectAll() {
   const auto note = [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); };
+  const auto show_failures_of = [this]<class... Senders>(Senders&... senders) {
+    (connect(&senders, &Senders::failed, this, &MainWindow::showMessage), ...);
+  };
   new InputGuard(this);
   auto* links = new PanelLinks(parts_, *docks_, this);
   connect(links, &PanelLinks::warningsChanged, &frame_->verdict(), &VerdictBar::setWarnings);
-  auto* verdicts = new VerdictController({parts_, *docks_, *workspaces_, *files_, *findings_},
+  auto* verdicts = new VerdictController(parts_, *docks_, *workspaces_, *files_, *findings_,
                                          frame_->verdict(), *this);
   connect(&docks_->remedies, &RemediesPanel::stepRequested, verdicts, &VerdictController::perform);
   connect(menus_, &WindowMenus::verdictStepRequested, &frame_->verdict(),
@@ -104,63 +99,58 @@ void MainWindow::connectAll() {
   connect(&frame_->jobs(), &JobStrip::stepRequested, verdicts, &VerdictController::perform);
   auto* jobs = new JobController(parts_, docks_->review.controller(), frame_->jobs(), this);
   connect(menus_, &WindowMenus::stopRequested, jobs, &JobController::stop);
-  connect(&document_, &Document::opened, this, &MainWindow::showFittingWorkspace);
+  connect(&parts_.document, &Document::opened, this, &MainWindow::showFittingWorkspace);
   connect(files_, &SessionFiles::caseAdded, this, &MainWindow::showFittingWorkspace);
   new QueueLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels, this);
   connect(levels, &LevelsController::noted, this, note);
   new MaskController(parts_, docks_->mask_editor, docks_->mask, image(), this);
   auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation);
-  connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this, note);
   connect(findChild<QAction*>(QStringLiteral("importAnnotations")), &QAction::triggered,
           annotation_files, &AnnotationFiles::importAnnotations);
   connect(findChild<QAction*>(QStringLiteral("exportAnnotations")), &QAction::triggered,
           annotation_files, &AnnotationFiles::exportAnnotations);
-  connect(&onboard_, &OnboardController::rerunRequested, &cases_, &CaseController::runPlan);
-  connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
-  connect(&onboard_, &OnboardController::told, this, note);
-  connect(&annotation_, &AnnotationController::told, this, note);
-  connect(&docks_->snapper, &StationSnapper::failed, this, &MainWindow::showMessage);
-  connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
-  connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
+  connect(&parts_.onboard, &OnboardController::rerunRequested, &parts_.cases,
+          &CaseController::runPlan);
+  connect(&parts_.onboard, &OnboardController::told, this, note);
+  connect(&parts_.annotation, &AnnotationController::told, this, note);
+  show_failures_of(*annotation_files, parts_.onboard, docks_->snapper, *links, *findings_, *files_,
+                   parts_.document, parts_.cases, parts_.tasks, parts_.exports);
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
-  connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::queueWanted, this,
           [this] { workspaces_->reveal(QStringLiteral("queue")); });
   connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
     statusBar()->showMessage(message, kNote_ms);
-    if (!state_.currentCase()) image().setHint(message);  // where the operator looks
+    if (!parts_.state.currentCase()) image().setHint(message);  // where the operator looks
   });
-  connect(&document_, &Document::opened, this, &MainWindow::showDocument);
-  connect(&document_, &Document::changed, this, &MainWindow::showState);
-  connect(&document_, &Document::failed, this, &MainWindow::showMessage);
+  connect(&parts_.document, &Document::opened, this, &MainWindow::showDocument);
+  connect(&parts_.document, &Document::changed, this, &MainWindow::showState);
   const auto offer_elsewhere = [this](const QString& message) {
     last_message_ = message;
     if (!quiet_) files_->offerSavingElsewhere(message);
   };
-  connect(&document_, &Document::writeFailed, this, offer_elsewhere);
-  connect(&cases_, &CaseController::storeFailed, this, [this, offer_elsewhere](const QString& m) {
-    showState();  // it can be saved now
-    offer_elsewhere(m);
+  connect(&parts_.document, &Document::writeFailed, this, offer_elsewhere);
+  connect(&parts_.cases, &CaseController::storeFailed, this,
+          [this, offer_elsewhere](const QString& m) {
+            showState();  // it can be saved now
+            offer_elsewhere(m);
+          });
+  connect(&parts_.cases, &CaseController::batchChanged, this, &MainWindow::showState);
+  connect(&parts_.run, &RunController::stateChanged, this, &MainWindow::showState);
+  connect(&parts_.run, &RunController::stateChanged, this, [this] {
+    if (parts_.run.state() == RunState::kWorking)
+      statusBar()->clearMessage();  // of what was before
   });
-  connect(&cases_, &CaseController::failed, this, &MainWindow::showMessage);
-  connect(&cases_, &CaseController::batchChanged, this, &MainWindow::showState);
-  connect(&tasks_, &TaskRunner::failed, this, &MainWindow::showMessage);
-  connect(&exports_, &ExportRunner::failed, this, &MainWindow::showMessage);
-  connect(&run_, &RunController::stateChanged, this, &MainWindow::showState);
-  connect(&run_, &RunController::stateChanged, this, [this] {
-    if (run_.state() == RunState::kWorking) statusBar()->clearMessage();  // of what was before
-  });
-  state_.onChange(ViewChange::kCase, this, &MainWindow::showState);
-  state_.onChange(ViewChange::kCase, this, &MainWindow::showHint);
+  parts_.state.onChange(ViewChange::kCase, this, &MainWindow::showState);
+  parts_.state.onChange(ViewChange::kCase, this, &MainWindow::showHint);
 }
 
 /// One form decides, for the case that is shown; the queue only asks it.
 void MainWindow::connectDecisions(VerdictController& verdicts) {
   DecisionForm& form = docks_->review.decision();
   form.setNext([&verdicts] { return verdicts.nextCase(); });
-  connect(&form, &DecisionForm::nextRequested, &cases_, &CaseController::chooseCase);
+  connect(&form, &DecisionForm::nextRequested, &parts_.cases, &CaseController::chooseCase);
   connect(&form, &DecisionForm::decided, this,
           [this](const QString& what) { statusBar()->showMessage(what, kNote_ms); });
   connect(&form, &DecisionForm::questionEnded, this, [this] {
@@ -172,17 +162,17 @@ void MainWindow::connectDecisions(VerdictController& verdicts) {
           [&verdicts] { verdicts.askForDecision(ReviewController::Act::kValidate); });
   connect(&docks_->queue, &QueuePanel::rejectionRequested, &verdicts,
           [&verdicts] { verdicts.askForDecision(ReviewController::Act::kReject); });
-  connect(&cases_, &CaseController::caseChosen, &docks_->review.controller(),
+  connect(&parts_.cases, &CaseController::caseChosen, &docks_->review.controller(),
           &ReviewController::setChosenCase);
 }
 
 /// In the middle, where the operator looks for the image: why it is not there, and what to do.
 void MainWindow::showHint() {
   QString hint;
-  if (document_.isOpen() && !cases_.caseId().isEmpty()) {
-    hint = findings_->adviceFor(cases_.caseId());
-    if (hint.isEmpty()) hint = cases_.loadProblem();
-    if (hint.isEmpty()) hint = tr("Reading the files of %1 ...").arg(cases_.caseId());
+  if (parts_.document.isOpen() && !parts_.cases.caseId().isEmpty()) {
+    hint = findings_->adviceFor(parts_.cases.caseId());
+    if (hint.isEmpty()) hint = parts_.cases.loadProblem();
+    if (hint.isEmpty()) hint = tr("Reading the files of %1 ...").arg(parts_.cases.caseId());
   }
   image().setHint(hint);
 }
@@ -202,13 +192,10 @@ bool MainWindow::openSession(const std::filesystem::path& file) { return files_-
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  annotation_.finishMove();
-  cases_.finishStoring();
-  if (!files_->mayLeave()) {
-    event->ignore();
-    return;
-  }
-  cases_.stop();
+  parts_.annotation.finishMove();
+  parts_.cases.finishStoring();
+  if (!files_->mayLeave()) return event->ignore();
+  parts_.cases.stop();
   event->accept();
   if (!remembers_layout_) return;
   QSettings settings;
@@ -236,8 +223,7 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 }
 
 void MainWindow::showFittingWorkspace() {
-  const bool empty = document_.session().cases.empty();
-  if (empty)
+  if (parts_.document.session().cases.empty())
     workspaces_->show(Workspace::kStart);
   else if (workspaces_->current() == Workspace::kStart)
     workspaces_->show(Workspace::kRun);
@@ -257,20 +243,20 @@ void MainWindow::dropEvent(QDropEvent* event) {
 
 void MainWindow::showDocument() {
   if (!quiet_) files_->offerRecovery();
-  const QString reason = document_.readOnlyReason();
-  if (!reason.isEmpty() && !document_.recovery()) statusBar()->showMessage(reason);
+  const QString reason = parts_.document.readOnlyReason();
+  if (!reason.isEmpty() && !parts_.document.recovery()) statusBar()->showMessage(reason);
   showState();
 }
 
 void MainWindow::showState() {
   menus_->update();
-  const bool read_only = document_.isOpen() && !document_.readOnlyReason().isEmpty();
-  const QString name = document_.isUntitled() ? tr("Untitled")
-                       : document_.isOpen()
-                           ? QString::fromStdString(document_.file().filename().string())
+  const bool read_only = parts_.document.isOpen() && !parts_.document.readOnlyReason().isEmpty();
+  const QString name = parts_.document.isUntitled() ? tr("Untitled")
+                       : parts_.document.isOpen()
+                           ? QString::fromStdString(parts_.document.file().filename().string())
                            : tr("No session");
   setWindowTitle(tr("%1[*]%2 - Boresight").arg(name, read_only ? tr(" (read only)") : QString()));
-  setWindowModified(document_.isModified() || document_.isUntitled());
+  setWindowModified(parts_.document.isModified() || parts_.document.isUntitled());
 }
 
 }  // namespace boresight::ui

@@ -7,16 +7,6 @@
 
 #include <QMainWindow>
 
-#include "ui/annotation/annotation_controller.h"
-#include "ui/review/onboard_controller.h"
-#include "ui/review/quality_controller.h"
-#include "ui/run/export_runner.h"
-#include "ui/run/run_controller.h"
-#include "ui/run/sequence_runner.h"
-#include "ui/run/task_runner.h"
-#include "ui/state/document.h"
-#include "ui/state/view_state.h"
-#include "ui/window/case_controller.h"
 #include "ui/window/window_parts.h"
 
 class QDockWidget;
@@ -26,7 +16,6 @@ namespace boresight::ui {
 class ImagePanel;
 class InputFindings;
 class SessionFiles;
-class TopBar;
 class WindowDocks;
 class WindowFrame;
 class WindowMenus;
@@ -54,19 +43,19 @@ class MainWindow : public QMainWindow {
   /// it closes. Without this call the window is as at the first start.
   void rememberLayout();
 
-  Document& document() { return document_; }
-  ViewState& state() { return state_; }
-  RunController& run() { return run_; }
-  TaskRunner& tasks() { return tasks_; }
-  CaseController& cases() { return cases_; }
-  AnnotationController& annotation() { return annotation_; }
-  OnboardController& onboard() { return onboard_; }
+  WindowParts& parts() { return parts_; }
+  Document& document() { return parts_.document; }
+  ViewState& state() { return parts_.state; }
+  RunController& run() { return parts_.run; }
+  TaskRunner& tasks() { return parts_.tasks; }
+  CaseController& cases() { return parts_.cases; }
+  AnnotationController& annotation() { return parts_.annotation; }
+  OnboardController& onboard() { return parts_.onboard; }
   ImagePanel& image();
-  ExportRunner& exports() { return exports_; }
+  ExportRunner& exports() { return parts_.exports; }
   InputFindings& findings() { return *findings_; }
   Workspaces& workspaces() { return *workspaces_; }
   WindowFrame& frame() { return *frame_; }
-  TopBar& topBar();
   /// The dock of this object name, or nullptr.
   QDockWidget* dock(const QString& name) const;
 
@@ -87,16 +76,6 @@ class MainWindow : public QMainWindow {
   void showHint();
   void showMessage(const QString& message);
 
-  Document document_;
-  ViewState state_;
-  TaskRunner tasks_;
-  RunController run_;
-  CaseController cases_;
-  AnnotationController annotation_;
-  OnboardController onboard_;
-  QualityController quality_;
-  SequenceRunner sequence_;
-  ExportRunner exports_;
   WindowParts parts_;
   QMainWindow* body_ = nullptr;  ///< holds the docks
   std::unique_ptr<WindowDocks> docks_;

@@ -6,6 +6,7 @@
 
 #include "sessions/session/input_check.h"
 #include "sessions/session/session.h"
+#include "ui/models/text.h"
 #include "ui/panels/annotate/levels_panel.h"
 #include "ui/panels/annotate/mask_panel.h"
 #include "ui/run/task_runner.h"
@@ -13,16 +14,17 @@
 #include "ui/state/view_state.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/mask_editor.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 
 using sessions::Conversion;
 
-LevelsController::LevelsController(const WindowParts& parts, LevelsPanel& panel, QObject* parent)
+LevelsController::LevelsController(WindowParts& parts, LevelsPanel& panel, QObject* parent)
     : QObject(parent), parts_(parts), panel_(panel) {
   connect(&panel_, &LevelsPanel::conversionRequested, this, &LevelsController::convert);
-  connect(&parts_.document, &Document::opened, this, &LevelsController::showDocument);
-  connect(&parts_.document, &Document::changed, this, &LevelsController::showDocument);
+  connectEach(parts_.document, this, &LevelsController::showDocument, &Document::opened,
+              &Document::changed);
   parts_.state.onChange(ViewChange::kCase, this, &LevelsController::showDocument);
   showDocument();
 }
@@ -32,15 +34,13 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
   if (!shown) return;
   const sessions::Session& session = parts_.document.session();
   const std::string id = shown->source.id;
-  std::vector<std::string> ids = {id};
-  if (whole_camera) {
-    const auto others = sessions::casesOfSameCamera(session, id);
-    ids.insert(ids.end(), others.begin(), others.end());
-  }
+  std::vector<std::string> ids;
+  if (whole_camera) ids = sessions::casesOfSameCamera(session, id);
+  ids.insert(ids.begin(), id);
   std::vector<Conversion> wanted;
-  for (const std::string& text : ids)
-    if (const sessions::SessionCase* found = session.findCase(text))
-      wanted.push_back({text, found->image});
+  for (const std::string& each : ids)
+    if (const sessions::SessionCase* found = session.findCase(each))
+      wanted.push_back({each, found->image});
   Q_EMIT noted(tr("Converting %n image(s)...", "", static_cast<int>(wanted.size())));
   parts_.tasks.start(
       QStringLiteral("conversion"),
@@ -53,9 +53,9 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
         return conversions;
       },
       [this, id](const std::vector<Conversion>& conversions) {
-        const bool done = parts_.document.edit(
-            withConversions(parts_.document.session(), conversions),
-            tr("Change the 8-bit conversion of %1").arg(QString::fromStdString(id)));
+        const bool done =
+            parts_.document.edit(withConversions(parts_.document.session(), conversions),
+                                 tr("Change the 8-bit conversion of %1").arg(fromText(id)));
         Q_EMIT noted(done ? tr("Converted; earlier runs are stale") : QString());
       });
 }
@@ -64,10 +64,7 @@ void LevelsController::showDocument() {
   const Document& document = parts_.document;
   const sessions::SessionCase* session_case =
       document.isEditable() ? shownCase(document, parts_.state) : nullptr;
-  if (!session_case) {
-    panel_.setCase(nullptr, nullptr, 0);
-    return;
-  }
+  if (!session_case) return panel_.setCase(nullptr, nullptr, 0);
   panel_.setCase(
       session_case, &parts_.state.currentCase()->image,
       static_cast<int>(sessions::casesOfSameCamera(document.session(), session_case->id).size()));
@@ -76,7 +73,7 @@ void LevelsController::showDocument() {
 using sessions::MaskStroke;
 using sessions::MaskStrokes;
 
-MaskController::MaskController(const WindowParts& parts, MaskEditor& editor, MaskPanel& panel,
+MaskController::MaskController(WindowParts& parts, MaskEditor& editor, MaskPanel& panel,
                                ImagePanel& image, QObject* parent)
     : QObject(parent), parts_(parts), editor_(editor), panel_(panel), image_(image) {
   connect(&editor_, &MaskEditor::strokeDrawn, this, &MaskController::addStroke);
@@ -84,8 +81,8 @@ MaskController::MaskController(const WindowParts& parts, MaskEditor& editor, Mas
   connect(&panel_, &MaskPanel::strokeRequested, this, &MaskController::addStroke);
   connect(&panel_, &MaskPanel::strokesRequested, this, &MaskController::setStrokes);
   connect(&panel_, &MaskPanel::copyRequested, this, &MaskController::copyStroke);
-  connect(&parts_.document, &Document::opened, this, &MaskController::showDocument);
-  connect(&parts_.document, &Document::changed, this, &MaskController::showDocument);
+  connectEach(parts_.document, this, &MaskController::showDocument, &Document::opened,
+              &Document::changed);
   parts_.state.onChange(ViewChange::kCase, this, &MaskController::showDocument);
   showDocument();
 }
@@ -94,23 +91,21 @@ void MaskController::addStroke(const MaskStroke& stroke) {
   const std::string id = shownId();
   const QString text =
       stroke.erase ? tr("Use pixels of %1 again (%2)") : tr("Ignore pixels of %1 (%2)");
-  const QString what = QString::fromStdString(sessions::strokeText(stroke));
   parts_.document.edit(withStroke(parts_.document.session(), id, stroke),
-                       text.arg(QString::fromStdString(id), what));
+                       text.arg(fromText(id), fromText(sessions::strokeText(stroke))));
   showDocument();
 }
 
 void MaskController::setStrokes(const MaskStrokes& strokes, const QString& text) {
   parts_.document.edit(withStrokes(parts_.document.session(), shownId(), strokes),
-                       tr("%1 of %2").arg(text, QString::fromStdString(shownId())));
+                       tr("%1 of %2").arg(text, fromText(shownId())));
 }
 
 void MaskController::copyStroke(int stroke) {
   if (stroke < 0) return;
   parts_.document.edit(
       copyingStroke(parts_.document.session(), shownId(), static_cast<std::size_t>(stroke)),
-      tr("Copy a stroke of the ignore mask of %1 to its camera's cases")
-          .arg(QString::fromStdString(shownId())));
+      tr("Copy a stroke of the ignore mask of %1 to its camera's cases").arg(fromText(shownId())));
 }
 
 void MaskController::showDocument() {
@@ -146,10 +141,7 @@ void MaskController::showPending(const sessions::SessionCase& edited) {
 
 /// A hidden mask cannot be drawn on.
 void MaskController::showTool() {
-  if (editor_.tool() == MaskTool::kNone) return;
-  LayerStyle style = image_.style(LayerId::kIgnoreMask);
-  style.visible = true;
-  image_.setStyle(LayerId::kIgnoreMask, style);
+  if (editor_.tool() != MaskTool::kNone) image_.showLayer(LayerId::kIgnoreMask, true);
 }
 
 }  // namespace boresight::ui

@@ -18,7 +18,7 @@ class LevelsController : public QObject {
   Q_OBJECT
 
  public:
-  LevelsController(const WindowParts& parts, LevelsPanel& panel, QObject* parent = nullptr);
+  LevelsController(WindowParts& parts, LevelsPanel& panel, QObject* parent = nullptr);
 
  Q_SIGNALS:
   void noted(const QString& message);
@@ -27,7 +27,7 @@ class LevelsController : public QObject {
   void convert(const sessions::ImageReadOptions& eight_bit, bool whole_camera);
   void showDocument();
 
-  WindowParts parts_;
+  WindowParts& parts_;
   LevelsPanel& panel_;
 };
 
@@ -41,7 +41,7 @@ class MaskController : public QObject {
   Q_OBJECT
 
  public:
-  MaskController(const WindowParts& parts, MaskEditor& editor, MaskPanel& panel, ImagePanel& image,
+  MaskController(WindowParts& parts, MaskEditor& editor, MaskPanel& panel, ImagePanel& image,
                  QObject* parent = nullptr);
 
  private:
@@ -53,7 +53,7 @@ class MaskController : public QObject {
   void showPending(const sessions::SessionCase& edited);
   void showTool();
 
-  WindowParts parts_;
+  WindowParts& parts_;
   MaskEditor& editor_;
   MaskPanel& panel_;
   ImagePanel& image_;

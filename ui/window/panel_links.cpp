@@ -8,7 +8,6 @@
 #include <QtWidgets>
 
 #include "sessions/session/input_sheet.h"
-#include "sessions/session/input_sigmas.h"
 #include "sessions/session/stated_inputs.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/models/text.h"
@@ -33,34 +32,21 @@
 #include "ui/window/window_docks.h"
 
 namespace boresight::ui {
-namespace {
 
-QDockWidget* dockOf(const QWidget& panel) {
-  for (QWidget* each = panel.parentWidget(); each; each = each->parentWidget())
-    if (auto* dock = qobject_cast<QDockWidget*>(each)) return dock;
-  return nullptr;
-}
-
-}  // namespace
-
-QueueLinks::QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
+QueueLinks::QueueLinks(WindowParts& parts, const WindowDocks& docks, QObject* parent)
     : QObject(parent), parts_(parts) {
   connect(&docks.queue, &QueuePanel::openRequested, this,
           [this](const QString& id, const QString& digest, int iteration) {
-            open({id, digest.toStdString(), iteration});
+            wanted_ = Place{id, digest.toStdString(), iteration};
+            parts_.cases.chooseCase(id);
+            goThere();
           });
-  connect(dockOf(docks.queue), &QDockWidget::visibilityChanged, &docks.queue,
-          &QueuePanel::setInSight);
+  connect(parent->findChild<QDockWidget*>(QStringLiteral("queue")), &QDockWidget::visibilityChanged,
+          &docks.queue, &QueuePanel::setInSight);
   parts_.state.onChange(ViewChange::kSnapshot, this, &QueueLinks::goThere);
   connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
     if (wanted_ && wanted_->case_id != id) wanted_.reset();  // the operator went elsewhere
   });
-}
-
-void QueueLinks::open(const Place& place) {
-  wanted_ = place;
-  parts_.cases.chooseCase(place.case_id);
-  goThere();
 }
 
 /// As soon as the case is shown with its run. Another run of it that is shown stays as it is.
@@ -77,7 +63,7 @@ void QueueLinks::goThere() {
       {exists && place.iteration >= 0 ? place.iteration : count - 1, Stage::kFinished});
 }
 
-PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
+PanelLinks::PanelLinks(WindowParts& parts, const WindowDocks& docks, QObject* parent)
     : QObject(parent),
       parts_(parts),
       docks_(docks),
@@ -108,8 +94,7 @@ void PanelLinks::linkCases() {
     details_->setSession(parts_.document.session());
     showCases();
   };
-  connect(&parts_.document, &Document::opened, this, document_shown);
-  connect(&parts_.document, &Document::changed, this, document_shown);
+  connectEach(parts_.document, this, document_shown, &Document::opened, &Document::changed);
   connect(details_, &CaseDetails::changed, this, &PanelLinks::showCases);
   connect(&parts_.run, &RunController::stateChanged, this, &PanelLinks::showCases);
   connect(&cases, &CaseController::batchChanged, this, &PanelLinks::showCases);
@@ -118,24 +103,20 @@ void PanelLinks::linkCases() {
 void PanelLinks::linkConfiguration() {
   ConfigurationPanel& panel = docks_.configuration;
   connect(&panel, &ConfigurationPanel::optionsEdited, &parts_.cases, &CaseController::setOptions);
-  connect(&panel, &ConfigurationPanel::runAgainRequested, this, [this] {
-    parts_.cases.reset();
-    parts_.cases.advance(sessions::StepUntil::kEnd);
-  });
-  connect(&parts_.document, &Document::opened, this, &PanelLinks::showConfiguration);
-  connect(&parts_.document, &Document::changed, this, &PanelLinks::showConfiguration);
+  connect(&panel, &ConfigurationPanel::runAgainRequested, &parts_.cases, &CaseController::runAgain);
+  connectEach(parts_.document, this, &PanelLinks::showConfiguration, &Document::opened,
+              &Document::changed);
 }
 
 void PanelLinks::linkPoses() {
-  connect(&docks_.poses, &PosePanel::useAsSeedRequested, &parts_.cases, &CaseController::useAsSeed);
-  connect(&docks_.gizmo, &NudgeGizmo::useAsSeedRequested, &parts_.cases,
-          &CaseController::useAsSeed);
-  connect(&docks_.annotation, &AnnotationPanel::openCaseRequested, &parts_.cases,
+  CaseController* cases = &parts_.cases;
+  const NudgeController* nudge = &docks_.poses.nudgeController();
+  connect(nudge, &NudgeController::useAsSeedRequested, cases, &CaseController::useAsSeed);
+  connect(&docks_.annotation, &AnnotationPanel::openCaseRequested, cases,
           &CaseController::chooseCase);
   connect(&docks_.annotation, &AnnotationPanel::imageRequested, this,
           [this] { docks_.image.view().setFocus(); });
-  connect(&docks_.poses, &PosePanel::gestureFinished, &parts_.cases,
-          &CaseController::keepNudgedPose);
+  connect(nudge, &NudgeController::gestureFinished, cases, &CaseController::keepNudgedPose);
   parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showJudgement);
   parts_.state.onChange(ViewChange::kNudgedPose, this, &PanelLinks::showNudgedPose);
   connect(nudged_, &PoseRenderer::rendered, &docks_.image, &ImagePanel::setNudgedRender);
@@ -143,7 +124,7 @@ void PanelLinks::linkPoses() {
 
 void PanelLinks::showCases() {
   const auto& batch = parts_.cases.batch();
-  const bool working = parts_.run.state() == RunState::kWorking || batch;
+  const bool working = parts_.cases.isWorking();
   const QString running = batch ? batch->case_id : working ? parts_.cases.caseId() : QString();
   std::vector<CaseRow> rows =
       caseRows(parts_.document.session(), running, parts_.document.file(), stale_runs_);

@@ -19,7 +19,8 @@ class QueueLinks : public QObject {
   Q_OBJECT
 
  public:
-  QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent);
+  /// `parent`: the window, which has the docks.
+  QueueLinks(WindowParts& parts, const WindowDocks& docks, QObject* parent);
 
  private:
   struct Place {
@@ -28,10 +29,9 @@ class QueueLinks : public QObject {
     int iteration = -1;
   };
 
-  void open(const Place& place);
   void goThere();
 
-  WindowParts parts_;
+  WindowParts& parts_;
   std::optional<Place> wanted_;  ///< while the case or its run is being read
 };
 
@@ -45,7 +45,7 @@ class PanelLinks : public QObject {
   Q_OBJECT
 
  public:
-  PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent = nullptr);
+  PanelLinks(WindowParts& parts, const WindowDocks& docks, QObject* parent = nullptr);
 
  Q_SIGNALS:
   /// A panel cannot show something; one sentence.
@@ -67,7 +67,7 @@ class PanelLinks : public QObject {
   void showJudgement();
   void showNudgedPose();
 
-  WindowParts parts_;
+  WindowParts& parts_;
   const WindowDocks& docks_;
   CaseDetails* details_;
   PoseRenderer* nudged_;

@@ -31,7 +31,7 @@ constexpr int kRecentFiles = 10;
 constexpr QSize kPicture(512, 192);  ///< of a chosen image, at most
 constexpr const char* kRecentKey = "recent";
 
-QString text(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
+QString text(const std::filesystem::path& file) { return fromText(file.string()); }
 
 std::filesystem::path path(const QString& file) { return file.toStdString(); }
 
@@ -45,7 +45,7 @@ QStringList recentFiles() {
 }
 
 void noteRecentFile(const std::filesystem::path& file) {
-  const QString name = QString::fromStdString(std::filesystem::absolute(file).string());
+  const QString name = fromText(std::filesystem::absolute(file).string());
   QStringList files = recentFiles();
   files.removeAll(name);
   files.prepend(name);
@@ -65,7 +65,7 @@ QString meshUnitText(const char* unit, const std::optional<double>& extent) {
   return QObject::tr("%1: %2 mm across").arg(QString::fromLatin1(unit)).arg(size_mm, 0, 'g', 3);
 }
 
-SessionFiles::SessionFiles(QWidget& window, const WindowParts& parts)
+SessionFiles::SessionFiles(QWidget& window, WindowParts& parts)
     : QObject(&window), window_(window), parts_(parts) {}
 
 bool SessionFiles::open(const std::filesystem::path& file) {
@@ -93,21 +93,17 @@ void SessionFiles::askForFiles() {
 
 void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   const DroppedFiles alone = classify(files);
-  const bool restarts = alone.beginsAnew(collected_);
+  const bool restarts = alone.startsNewCase(collected_);
   const DroppedFiles dropped = restarts ? alone : classify(files, collected_);
   const std::string kept = restarts ? std::string() : alone.keptNames(collected_);
-  for (const std::string& problem : dropped.problems)
-    Q_EMIT failed(QString::fromStdString(problem));
+  for (const std::string& problem : dropped.problems) Q_EMIT failed(fromText(problem));
   if (dropped.session) {
     if (mayLeave()) open(*dropped.session);
     return;
   }
-  if (dropped.results) {
-    makeFrom(*dropped.results, true);
-    return;
-  }
+  if (dropped.results) return makeFrom(*dropped.results, true);
   collected_ = dropped;
-  kept_ = QString::fromStdString(kept);
+  kept_ = fromText(kept);
   judgeCollected();
   // Of the case that is open, unless it comes with the files of another.
   if (dropped.isRecordAlone() && parts_.state.currentCase()) {
@@ -116,23 +112,18 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
     parts_.onboard.attach(record);
     return;
   }
-  if (!dropped.dataset && !dropped.isCase()) {
-    if (dropped.problems.empty())
-      Q_EMIT noted(tr("%1 of 4 files added. Still needed: %2.")
-                       .arg(dropped.count())
-                       .arg(QString::fromStdString(dropped.missing())));
-    measureMesh();
-    return;
-  }
   if (dropped.dataset) {
     if (dropped.record)
       Q_EMIT failed(tr("A dataset has many cases: open the case of %1, then drop the record again.")
                         .arg(text(dropped.record->filename())));
-    makeFrom(*dropped.dataset, false);
-  } else {
-    measureMesh();
-    makeCollected();
+    return makeFrom(*dropped.dataset, false);
   }
+  if (!dropped.isCase() && dropped.problems.empty())
+    Q_EMIT noted(tr("%1 of 4 files added. Still needed: %2.")
+                     .arg(dropped.count())
+                     .arg(fromText(dropped.missing())));
+  measureMesh();
+  if (dropped.isCase()) makeCollected();
 }
 
 /// Each is read at once, so that a wrong one is known before the others are there.
@@ -160,39 +151,15 @@ void SessionFiles::judgeCollected() {
       });
 }
 
-bool SessionFiles::has(sessions::InputKind kind) const {
-  switch (kind) {
-    case sessions::InputKind::kImage:
-      return !collected_.one.image.empty();
-    case sessions::InputKind::kCamera:
-      return collected_.hasCamera();
-    case sessions::InputKind::kMesh:
-      return !collected_.one.parts.empty();
-    case sessions::InputKind::kSeed:
-      return !collected_.one.seed.empty();
-  }
-  return false;
-}
-
-std::optional<sessions::InputKind> SessionFiles::nextKind() const {
-  for (int i = 0; i < sessions::kInputKinds; ++i)
-    if (!judged_[static_cast<std::size_t>(i)].problem.empty())
-      return static_cast<sessions::InputKind>(i);
-  for (int i = 0; i < sessions::kInputKinds; ++i)
-    if (!has(static_cast<sessions::InputKind>(i))) return static_cast<sessions::InputKind>(i);
+std::optional<InputKind> SessionFiles::nextKind() const {
+  for (const InputKind kind : kAllInputs)
+    if (!judged_[static_cast<std::size_t>(kind)].problem.empty()) return kind;
+  for (const InputKind kind : kAllInputs)
+    if (!collected_.has(kind)) return kind;
   return std::nullopt;
 }
 
-QString SessionFiles::nameOf(sessions::InputKind kind) const {
-  const sessions::CaseFiles& files = collected_.one;
-  const bool labelled = kind == sessions::InputKind::kCamera && files.camera.empty();
-  if (kind == sessions::InputKind::kImage || labelled) return text(files.image.filename());
-  if (kind == sessions::InputKind::kCamera) return text(files.camera.filename());
-  if (kind == sessions::InputKind::kSeed) return text(files.seed.filename());
-  return files.parts.empty() ? QString() : text(files.parts.front().mesh.filename());
-}
-
-void SessionFiles::askForFile(sessions::InputKind kind) {
+void SessionFiles::askForFile(InputKind kind) {
   const QString file = QFileDialog::getOpenFileName(
       &window_, tr("The %1 of the case").arg(inputName(kind)), {}, inputFilter(kind));
   if (!file.isEmpty()) take({path(file)});
@@ -206,13 +173,13 @@ void SessionFiles::askForNext() {
     makeCollected();
 }
 
-void SessionFiles::removeFile(sessions::InputKind kind) {
-  if (kind == sessions::InputKind::kImage) {
+void SessionFiles::removeFile(InputKind kind) {
+  if (kind == InputKind::kImage) {
     collected_.one.image.clear();
     collected_.label_camera_remark.reset();
-  } else if (kind == sessions::InputKind::kCamera) {
+  } else if (kind == InputKind::kCamera) {
     collected_.one.camera.clear();
-  } else if (kind == sessions::InputKind::kMesh) {
+  } else if (kind == InputKind::kMesh) {
     collected_.one.parts.clear();
     mesh_extent_.reset();
   } else {
@@ -222,13 +189,11 @@ void SessionFiles::removeFile(sessions::InputKind kind) {
 }
 
 FilesSituation SessionFiles::situation() const {
-  const std::string missing = collected_.missing();
   FilesSituation situation{collected_.count(), {}};
-  if (situation.added > 0 && !missing.empty())
-    situation.missing = tr("Still needed: %1.").arg(QString::fromStdString(missing));
-  if (situation.added == 0) return situation;
   const auto next = nextKind();
-  if (!next) return situation;
+  if (situation.added == 0 || !next) return situation;
+  const std::string missing = collected_.missing();
+  if (!missing.empty()) situation.missing = tr("Still needed: %1.").arg(fromText(missing));
   situation.next = inputName(*next);
   situation.problem = fromText(judged_[static_cast<std::size_t>(*next)].problem);
   return situation;
@@ -285,12 +250,6 @@ void SessionFiles::makeCollected() {
       [this](bool) { addCase(kept_); });
 }
 
-QStringList SessionFiles::unitTexts() const {
-  QStringList texts;
-  for (const char* unit : kMeshUnits) texts << meshUnitText(unit, mesh_extent_);
-  return texts;
-}
-
 void SessionFiles::openExample(const std::filesystem::path& file) {
   if (!mayLeave()) return;
   try {
@@ -338,7 +297,9 @@ void SessionFiles::addCase(const QString& kept) {
   // Also shown at its file, which is out of sight where a case is open.
   const FilesSituation files = situation();
   if (!files.problem.isEmpty()) {
-    Q_EMIT failed(tr("%1: %2").arg(nameOf(*nextKind()), files.problem));
+    std::filesystem::path file = collected_.fileOf(*nextKind());
+    if (file.empty()) file = collected_.one.image;  // its label is the camera
+    Q_EMIT failed(tr("%1: %2").arg(text(file.filename()), files.problem));
     return;
   }
   if (!askForUnits()) return;
@@ -368,7 +329,7 @@ bool SessionFiles::takeCase(sessions::SessionCase session_case) {
   Document& document = parts_.document;
   const bool alone = !document.isEditable();
   if (!alone && !askForId(session_case)) return false;
-  const QString id = QString::fromStdString(session_case.id);
+  const QString id = fromText(session_case.id);
   const sessions::Session session =
       sessions::withCase(alone ? sessions::Session() : document.session(), std::move(session_case));
   if (alone) {
@@ -385,13 +346,13 @@ bool SessionFiles::askForId(sessions::SessionCase& session_case) {
   const sessions::Session& session = parts_.document.session();
   if (session.findCase(session_case.id) == nullptr) return true;
   const std::string free = sessions::freeCaseId(session, session_case.id);
-  const QString id = QString::fromStdString(session_case.id);
+  const QString id = fromText(session_case.id);
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   tr("The session has a case %1. Replace it, or keep both?").arg(id),
                   QMessageBox::Cancel, &window_);
   box.setInformativeText(tr("Replacing drops its inputs; its runs become outdated. Keeping both "
                             "names the new case %1.")
-                             .arg(QString::fromStdString(free)));
+                             .arg(fromText(free)));
   QAbstractButton* both =
       named(box.addButton(tr("Keep both"), QMessageBox::AcceptRole), "keepBoth");
   QAbstractButton* replace =
@@ -402,10 +363,11 @@ bool SessionFiles::askForId(sessions::SessionCase& session_case) {
 }
 
 bool SessionFiles::askForUnits() {
+  QStringList units;
+  for (const char* unit : kMeshUnits) units << meshUnitText(unit, mesh_extent_);
   for (sessions::PartSource& part : collected_.one.parts) {
     if (!part.mesh_unit.empty() || sessions::statesUnit(part.mesh)) continue;
     bool chosen = false;
-    const QStringList units = unitTexts();
     const QString unit = QInputDialog::getItem(
         &window_, tr("Unit of the mesh"),
         tr("%1 states no unit. Its coordinates are in").arg(text(part.mesh.filename())), units, 0,
@@ -498,7 +460,7 @@ void SessionFiles::offerRecovery() {
                       .arg(text(document.file().filename()), time, changes),
                   QMessageBox::NoButton, &window_);
   QStringList edits;
-  for (const std::string& edit : recovery.edits) edits << QString::fromStdString(edit);
+  for (const std::string& edit : recovery.edits) edits << fromText(edit);
   box.setDetailedText(edits.join(QLatin1Char('\n')));
   QAbstractButton* accept = box.addButton(tr("Recover"), QMessageBox::AcceptRole);
   box.addButton(tr("Set aside"), QMessageBox::DestructiveRole);

@@ -12,7 +12,6 @@
 #include <QString>
 #include <QStringList>
 
-#include "sessions/session/case_inputs.h"
 #include "sessions/session/session.h"
 #include "ui/window/dropped_files.h"
 #include "ui/window/window_parts.h"
@@ -41,7 +40,7 @@ class SessionFiles : public QObject {
   Q_OBJECT
 
  public:
-  SessionFiles(QWidget& window, const WindowParts& parts);
+  SessionFiles(QWidget& window, WindowParts& parts);
 
   /// False, with a message, when it cannot be opened.
   bool open(const std::filesystem::path& file);
@@ -64,11 +63,11 @@ class SessionFiles : public QObject {
   const QImage& picture() const { return picture_; }
   /// Sets the unit; the case is created when nothing else is needed.
   void setMeshUnit(const std::string& unit);
-  void askForFile(sessions::InputKind kind);
+  void askForFile(InputKind kind);
   /// Asks for the file that cannot be used, else for the first missing one; when all are present,
   /// the case is created.
   void askForNext();
-  void removeFile(sessions::InputKind kind);
+  void removeFile(InputKind kind);
   /// Creates a case without a seed.
   void makeSeedless();
   void forgetCollected();
@@ -106,16 +105,13 @@ class SessionFiles : public QObject {
   [[nodiscard]] bool askForId(sessions::SessionCase& session_case);
   void makeCollected();
   void judgeCollected();
-  bool has(sessions::InputKind kind) const;
-  std::optional<sessions::InputKind> nextKind() const;
-  QString nameOf(sessions::InputKind kind) const;
+  std::optional<InputKind> nextKind() const;
   void measureMesh();
   bool askForUnits();
-  QStringList unitTexts() const;
   bool mayLoseRuns();
 
   QWidget& window_;
-  WindowParts parts_;
+  WindowParts& parts_;
   DroppedFiles collected_;  ///< of a case that is not complete yet
   sessions::JudgedFiles judged_;
   QImage picture_;

@@ -2,12 +2,15 @@
 #include "ui/window/verdict_controller.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 #include <QtWidgets>
 
 #include "sessions/checks/checks.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
+#include "ui/panels/run/nudge_gizmo.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/quality_controller.h"
 #include "ui/review/queue_panel.h"
@@ -16,6 +19,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/mask_editor.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/change_input.h"
 #include "ui/window/input_findings.h"
@@ -43,13 +47,15 @@ QString decisionText(const sessions::ReviewStatus& status) {
 
 }  // namespace
 
-VerdictController::VerdictController(const Links& links, VerdictBar& bar, QWidget& window)
+VerdictController::VerdictController(WindowParts& parts, const WindowDocks& docks,
+                                     Workspaces& workspaces, SessionFiles& files,
+                                     InputFindings& findings, VerdictBar& bar, QWidget& window)
     : QObject(&window),
-      parts_(links.parts),
-      docks_(links.docks),
-      workspaces_(links.workspaces),
-      files_(links.files),
-      findings_(links.findings),
+      parts_(parts),
+      docks_(docks),
+      workspaces_(workspaces),
+      files_(files),
+      findings_(findings),
       bar_(bar),
       window_(window) {
   soon_.setSingleShot(true);
@@ -64,21 +70,18 @@ void VerdictController::follow() {
   const auto soon = [this] { soon_.start(); };
   parts_.state.onChange(ViewChange::kAll, this, soon);
   connect(&parts_.document, &Document::opened, this, [this] { taken_.clear(); });
-  connect(&parts_.document, &Document::opened, this, soon);
-  connect(&parts_.document, &Document::changed, this, soon);
+  connectEach(parts_.document, this, soon, &Document::opened, &Document::changed);
+  connectEach(parts_.cases, this, soon, &CaseController::batchChanged,
+              &CaseController::stalenessChanged, &CaseController::caseChosen,
+              &CaseController::failed);
+  connectEach(parts_.annotation, this, soon, &AnnotationController::solutionChanged,
+              &AnnotationController::annotationsChanged);
+  ReviewController& review = docks_.review.controller();
+  connectEach(review, this, soon, &ReviewController::checksChanged,
+              &ReviewController::reviewStatusChanged, &ReviewController::convergenceChanged);
   connect(&parts_.run, &RunController::stateChanged, this, soon);
-  connect(&parts_.cases, &CaseController::batchChanged, this, soon);
-  connect(&parts_.cases, &CaseController::stalenessChanged, this, soon);
-  connect(&parts_.cases, &CaseController::caseChosen, this, soon);
-  connect(&parts_.cases, &CaseController::failed, this, soon);
-  connect(&parts_.annotation, &AnnotationController::solutionChanged, this, soon);
-  connect(&parts_.annotation, &AnnotationController::annotationsChanged, this, soon);
   connect(&parts_.onboard, &OnboardController::changed, this, soon);
   connect(&parts_.quality, &QualityController::changed, this, soon);
-  ReviewController& review = docks_.review.controller();
-  connect(&review, &ReviewController::checksChanged, this, soon);
-  connect(&review, &ReviewController::reviewStatusChanged, this, soon);
-  connect(&review, &ReviewController::convergenceChanged, this, soon);
   connect(&workspaces_, &Workspaces::changed, this, soon);
   // The bar is green only once the checks have passed.
   const auto follow_runs = [this, &review] {
@@ -100,18 +103,17 @@ void VerdictController::follow() {
 AnnotationSituation VerdictController::annotationSituation() const {
   const AnnotationController& annotation = parts_.annotation;
   AnnotationSituation situation;
-  const auto count = [](const auto& pairs) {
-    return static_cast<int>(
-        std::ranges::count_if(pairs, [](const auto& pair) { return pair.used(); }));
-  };
-  situation.pairs = count(annotation.annotations().points) + count(annotation.annotations().lines);
+  const sessions::Annotations& annotations = annotation.annotations();
+  for (const sessions::PointPair& point : annotations.points) {
+    situation.pairs += point.used() ? 1 : 0;
+    situation.unplaced += point.pixel ? 0 : 1;
+  }
+  for (const sessions::LinePair& line : annotations.lines) {
+    situation.pairs += line.used() ? 1 : 0;
+    situation.unplaced += line.line ? 0 : 1;
+  }
   situation.has_pose = annotation.solvedPose().has_value();
   situation.blind = annotation.answer().blind;
-  situation.unplaced =
-      static_cast<int>(std::ranges::count_if(annotation.annotations().points,
-                                             [](const auto& point) { return !point.pixel; }) +
-                       std::ranges::count_if(annotation.annotations().lines,
-                                             [](const auto& line) { return !line.line; }));
   const auto& solution = annotation.solution();
   if (!solution || !solution->result.solution) return situation;
   situation.rms_px = solution->result.solution->rms_px;
@@ -194,77 +196,64 @@ void VerdictController::perform(Step step) {
   const auto& run = parts_.state.snapshot();
   if (run && run->finished && !run->converged())
     taken_.note(parts_.cases.caseId().toStdString(), run->digest, step);
-  CaseController& cases = parts_.cases;
-  switch (step) {
-    case Step::kNone:
-      return;
-    case Step::kChooseFiles:
-      return files_.askForNext();
-    case Step::kChangeInput:
-      return changeInput();
-    case Step::kFixFiles:
-      return findings_.repair();
-    case Step::kRun:
-    case Step::kGoOn:
-      return cases.advance(sessions::StepUntil::kEnd);
-    case Step::kRunAgain:
-      cases.reset();
-      return cases.advance(sessions::StepUntil::kEnd);
-    case Step::kRunRest:
-      return cases.runRest();
-    case Step::kShowBatch:
-      return workspaces_.reveal(QStringLiteral("queue"));
-    case Step::kStop:
-      return cases.stop();
-    case Step::kReview:
-      return workspaces_.reveal(QStringLiteral("review"));
-    case Step::kWiderSearch:
-      return cases.runWithWiderSearch();
-    case Step::kNudgeSeed:
-      return nudgeSeed();
-    case Step::kMask:
-      workspaces_.reveal(QStringLiteral("mask"));
-      return docks_.mask_editor.setTool(MaskTool::kBrush);
-    case Step::kUncertainty:
-      return askForUncertainty();
-    case Step::kAnnotate:
-      workspaces_.show(Workspace::kAnnotate);
-      return parts_.annotation.setMode(PlaceMode::kPoint);
-    case Step::kInspect:
-      workspaces_.show(Workspace::kDiagnose);
-      return workspaces_.reveal(QStringLiteral("inspector"));
-    case Step::kCompetingPoses:
-      workspaces_.show(Workspace::kDiagnose);
-      return workspaces_.reveal(QStringLiteral("hypotheses"));
-    case Step::kInputs:
-      return workspaces_.reveal(QStringLiteral("inputs"));
-    case Step::kSeedFromAnnotation:
-      parts_.annotation.useAsSeed();
-      return workspaces_.show(Workspace::kRun);
-    case Step::kDisablePair:
-      return disablePair();
-    case Step::kRobust:
-      return parts_.annotation.setRobust(true);
-    case Step::kConvergenceTest:
-      return docks_.review.controller().startConvergenceTest(sessions::kConvergenceSeeds);
-    case Step::kStopTest:
-      return docks_.review.controller().stopConvergenceTest();
-    case Step::kValidate:
-      return askForDecision(ReviewController::Act::kValidate);
-    case Step::kExportPose:
-    case Step::kReport:
-      return exportRequested(step);
-    case Step::kNextCase:
-      if (const QString next = nextCase(); !next.isEmpty()) cases.chooseCase(next);
-      return;
-    case Step::kFirstDifference:
-      workspaces_.show(Workspace::kOnboard);
-      return parts_.onboard.goToFirstDifference();
-    case Step::kRepeatRecord:
-      return parts_.onboard.rerun();
-    case Step::kLoadRecord:
-      return askForOnboardRecord(parts_.onboard, &window_);
-  }
+  const auto run_to_end = [this] { parts_.cases.advance(sessions::StepUntil::kEnd); };
+  const auto reveal = [this](const char* dock) {
+    return [this, dock] { workspaces_.reveal(QLatin1String(dock)); };
+  };
+  const auto ask_for_export = [this, step] { Q_EMIT exportRequested(step); };
+  ReviewController& review = docks_.review.controller();
+  const std::map<Step, std::function<void()>> actions = {
+      {Step::kChooseFiles, [this] { files_.askForNext(); }},
+      {Step::kChangeInput, [this] { changeInput(); }},
+      {Step::kFixFiles, [this] { findings_.repair(); }},
+      {Step::kRun, run_to_end},
+      {Step::kGoOn, run_to_end},
+      {Step::kRunAgain, [this] { parts_.cases.runAgain(); }},
+      {Step::kRunRest, [this] { parts_.cases.runRest(); }},
+      {Step::kStop, [this] { parts_.cases.stop(); }},
+      {Step::kShowBatch, reveal("queue")},
+      {Step::kReview, reveal("review")},
+      {Step::kInputs, reveal("inputs")},
+      {Step::kInspect, reveal("inspector")},
+      {Step::kCompetingPoses, reveal("hypotheses")},
+      {Step::kWiderSearch, [this] { parts_.cases.runWithWiderSearch(); }},
+      {Step::kNudgeSeed, [this] { nudgeSeed(); }},
+      {Step::kMask,
+       [this] {
+         workspaces_.reveal(QStringLiteral("mask"));
+         docks_.mask_editor.setTool(MaskTool::kBrush);
+       }},
+      {Step::kUncertainty, [this] { askForUncertainty(); }},
+      {Step::kAnnotate,
+       [this] {
+         workspaces_.show(Workspace::kAnnotate);
+         parts_.annotation.setMode(PlaceMode::kPoint);
+       }},
+      {Step::kSeedFromAnnotation,
+       [this] {
+         parts_.annotation.useAsSeed();
+         workspaces_.show(Workspace::kRun);
+       }},
+      {Step::kDisablePair, [this] { disablePair(); }},
+      {Step::kRobust, [this] { parts_.annotation.setRobust(true); }},
+      {Step::kConvergenceTest, [&] { review.startConvergenceTest(sessions::kConvergenceSeeds); }},
+      {Step::kStopTest, [&] { review.stopConvergenceTest(); }},
+      {Step::kValidate, [this] { askForDecision(ReviewController::Act::kValidate); }},
+      {Step::kExportPose, ask_for_export},
+      {Step::kReport, ask_for_export},
+      {Step::kNextCase,
+       [this] {
+         if (const QString next = nextCase(); !next.isEmpty()) parts_.cases.chooseCase(next);
+       }},
+      {Step::kFirstDifference,
+       [this] {
+         workspaces_.show(Workspace::kOnboard);
+         parts_.onboard.goToFirstDifference();
+       }},
+      {Step::kRepeatRecord, [this] { parts_.onboard.rerun(); }},
+      {Step::kLoadRecord, [this] { askForOnboardRecord(parts_.onboard, &window_); }},
+  };
+  if (const auto action = actions.find(step); action != actions.end()) action->second();
 }
 
 /// A mesh of an impossible size has the wrong unit, most often.
@@ -282,12 +271,8 @@ void VerdictController::nudgeSeed() {
   if (!parts_.state.currentCase()) return;
   if (workspaces_.current() != Workspace::kDiagnose) workspaces_.show(Workspace::kRun);
   parts_.state.setCursor({-1, Stage::kFinished});
-  if (auto* gizmo = window_.findChild<QAction*>(QStringLiteral("nudgeSeed"))) {
-    if (!gizmo->isChecked()) gizmo->trigger();
-    return;
-  }
-  workspaces_.reveal(QStringLiteral("pose"));
-  if (auto* pad = window_.findChild<QWidget*>(QStringLiteral("nudgePad"))) pad->setFocus();
+  QAction& nudges = docks_.gizmo.action();
+  if (!nudges.isChecked()) nudges.trigger();
 }
 
 void VerdictController::disablePair() {

@@ -24,15 +24,8 @@ class VerdictController : public QObject {
   Q_OBJECT
 
  public:
-  struct Links {
-    const WindowParts& parts;
-    const WindowDocks& docks;
-    Workspaces& workspaces;
-    SessionFiles& files;
-    InputFindings& findings;
-  };
-
-  VerdictController(const Links& links, VerdictBar& bar, QWidget& window);
+  VerdictController(WindowParts& parts, const WindowDocks& docks, Workspaces& workspaces,
+                    SessionFiles& files, InputFindings& findings, VerdictBar& bar, QWidget& window);
 
   Situation situation() const;
   /// Updates the bar; called automatically after changes, once per event loop.
@@ -58,7 +51,7 @@ class VerdictController : public QObject {
   void disablePair();
   void askForUncertainty();
 
-  WindowParts parts_;
+  WindowParts& parts_;
   const WindowDocks& docks_;
   Workspaces& workspaces_;
   SessionFiles& files_;

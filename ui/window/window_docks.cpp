@@ -48,7 +48,7 @@ QString windowText(const char* text) { return QMainWindow::tr(text); }
 
 }  // namespace
 
-WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& parts)
+WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, WindowParts& parts)
     : image(*new ImagePanel(parts.state, parts.tasks)),
       cases(*new CasesPanel),
       configuration(*new ConfigurationPanel(parts.state)),
@@ -84,42 +84,39 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
       windowText("Fix ..."),
       windowText("Search missing files below the session's folder, or accept changed files"));
   findings.showWarnings({});
-  add(QStringLiteral("cases"), windowText("Cases"), &cases);
-  add(QStringLiteral("layers"), windowText("Layers"), &layers);
-  add(QStringLiteral("mask"), windowText("Mask"), &mask);
-  add(QStringLiteral("levels"), windowText("Levels"), &levels);
-  add(QStringLiteral("pose"), windowText("Pose"), &poses);
-  add(QStringLiteral("configuration"), windowText("Configuration"), &configuration);
-  add(QStringLiteral("scene"), windowText("Scene"), &scene);
-  add(QStringLiteral("iterations"), windowText("Iterations"), new IterationsPanel(parts.state));
-  add(QStringLiteral("hypotheses"), windowText("Hypotheses"), new HypothesesPanel(parts.state));
-  add(QStringLiteral("inspector"), windowText("Match inspector"),
-      new MatchInspectorPanel(parts.state));
-  add(QStringLiteral("annotation"), windowText("Annotation"), &annotation);
-  add(QStringLiteral("review"), windowText("Review"), &review);
-  add(QStringLiteral("queue"), windowText("Queue"), &queue);
-  add(QStringLiteral("inputs"), windowText("Inputs"), &inputs);
-  add(QStringLiteral("closeUps"), windowText("Close-ups"), new CloseUpsPanel(image, parts.state));
-  add(QStringLiteral("parts"), windowText("Parts"), &station_parts);
-  add(QStringLiteral("frames"), windowText("Frames"), &frames);
-  add(QStringLiteral("calibration"), windowText("Calibration"),
-      new CalibrationPanel(parts.document, parts.state, parts.tasks));
-  add(QStringLiteral("result"), windowText("Result"), new ResultPanel(parts.state, parts.quality));
-  add(QStringLiteral("remedies"), windowText("What may help"), &remedies);
-  add(QStringLiteral("onboard"), windowText("Onboard"),
-      new OnboardPanel(parts.onboard, parts.state, parts.run));
-  add(QStringLiteral("history"), windowText("History"), new HistoryPanel(parts.document));
+  add("cases", "Cases", &cases);
+  add("layers", "Layers", &layers);
+  add("mask", "Mask", &mask);
+  add("levels", "Levels", &levels);
+  add("pose", "Pose", &poses);
+  add("configuration", "Configuration", &configuration);
+  add("scene", "Scene", &scene);
+  add("iterations", "Iterations", new IterationsPanel(parts.state));
+  add("hypotheses", "Hypotheses", new HypothesesPanel(parts.state));
+  add("inspector", "Match inspector", new MatchInspectorPanel(parts.state));
+  add("annotation", "Annotation", &annotation);
+  add("review", "Review", &review);
+  add("queue", "Queue", &queue);
+  add("inputs", "Inputs", &inputs);
+  add("closeUps", "Close-ups", new CloseUpsPanel(image, parts.state));
+  add("parts", "Parts", &station_parts);
+  add("frames", "Frames", &frames);
+  add("calibration", "Calibration", new CalibrationPanel(parts.document, parts.state, parts.tasks));
+  add("result", "Result", new ResultPanel(parts.state, parts.quality));
+  add("remedies", "What may help", &remedies);
+  add("onboard", "Onboard", new OnboardPanel(parts.onboard, parts.state, parts.run));
+  add("history", "History", new HistoryPanel(parts.document));
   auto* trends = new TrendsPanel(parts.document);
-  add(QStringLiteral("trends"), windowText("Trends"), trends);
+  add("trends", "Trends", trends);
   QObject::connect(trends, &TrendsPanel::openRequested, &parts.cases, &CaseController::chooseCase);
   auto* runs = new RunsPanel(parts.document, parts.state);
-  add(QStringLiteral("runs"), windowText("Runs"), runs);
+  add("runs", "Runs", runs);
   QObject::connect(runs, &RunsPanel::openRequested, &parts.cases, &CaseController::showRun);
   QObject::connect(runs, &RunsPanel::compareRequested, &compare, &CompareView::showRun);
 }
 
 /// What is pointed at in one view is marked in the other.
-void WindowDocks::linkViews(const WindowParts& parts) {
+void WindowDocks::linkViews(WindowParts& parts) {
   QObject::connect(&image, &ImagePanel::stationPlaceHovered, &scene, &SceneView::showStationPlace);
   QObject::connect(&scene, &SceneView::stationPlaceHovered, &image, &ImagePanel::showStationPlace);
   image.tools().addAction(&gizmo.action());
@@ -135,9 +132,8 @@ void WindowDocks::linkViews(const WindowParts& parts) {
                    });
 }
 
-void WindowDocks::add(const QString& name, const QString& title, QWidget* widget) {
-  auto* result = new QDockWidget(title, &body_);
-  result->setObjectName(name);
+void WindowDocks::add(const char* name, const char* title, QWidget* widget) {
+  auto* result = named(new QDockWidget(windowText(title), &body_), name);
   result->setWidget(new PanelArea(widget));
   docks_.push_back(result);
 }

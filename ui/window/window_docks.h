@@ -41,7 +41,7 @@ class StationSnapper;
 class WindowDocks {
  public:
   /// `body` holds the docks; `window` owns objects that are not in `body`.
-  WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& parts);
+  WindowDocks(QMainWindow& body, QWidget& window, WindowParts& parts);
 
   ImagePanel& image;
   CasesPanel& cases;
@@ -70,8 +70,8 @@ class WindowDocks {
   const std::vector<QDockWidget*>& all() const { return docks_; }
 
  private:
-  void linkViews(const WindowParts& parts);
-  void add(const QString& name, const QString& title, QWidget* widget);
+  void linkViews(WindowParts& parts);
+  void add(const char* name, const char* title, QWidget* widget);
 
   QMainWindow& body_;
   std::vector<QDockWidget*> docks_;

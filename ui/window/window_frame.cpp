@@ -85,7 +85,7 @@ QString shownTitle(const sessions::Session& session, const ViewState& state) {
 
 }  // namespace
 
-WindowFrame::WindowFrame(QMainWindow& window, QMainWindow& body, const WindowParts& parts,
+WindowFrame::WindowFrame(QMainWindow& window, QMainWindow& body, WindowParts& parts,
                          const WindowDocks& docks, Workspaces& workspaces, SessionFiles& files)
     : QObject(&window),
       window_(window),
@@ -110,18 +110,14 @@ void WindowFrame::build() {
   canvas_column_ = new QWidget;
   stack_->addWidget(start_);
   stack_->addWidget(canvas_column_);
-  auto* canvas = new QVBoxLayout(canvas_column_);
-  canvas->setContentsMargins(0, 0, 0, 0);
-  canvas->setSpacing(0);
+  auto* canvas = withoutMargins(new QVBoxLayout(canvas_column_));
   canvas->addWidget(&docks_.findings);
   canvas->addWidget(&docks_.canvas, 1);
   canvas->addWidget(run_bar_);
   canvas->addWidget(drawers_);
   QWidget* centre = body_.parentWidget();
   window_.setCentralWidget(centre);
-  auto* grid = new QGridLayout(centre);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setSpacing(0);
+  auto* grid = withoutMargins(new QGridLayout(centre));
   grid->addWidget(cases_, 0, 0, 2, 1);
   grid->addWidget(verdict_, 0, 1);
   grid->addWidget(&body_, 1, 1);
@@ -150,9 +146,11 @@ void WindowFrame::connectAll() {
     QDockWidget* list = workspaces_.dock(QStringLiteral("cases"));
     list->setVisible(!list->isVisible());
   });
-  auto* menu = new CaseMenu(parts_, workspaces_, &window_);
-  connect(cases_, &CaseStrip::menuRequested, menu, &CaseMenu::show);
-  connect(&docks_.cases, &CasesPanel::menuRequested, menu, &CaseMenu::show);
+  const auto show_menu = [this](const QString& id, const QPoint& at) {
+    caseMenu(id, parts_, workspaces_, window_)->exec(at);
+  };
+  connect(cases_, &CaseStrip::menuRequested, this, show_menu);
+  connect(&docks_.cases, &CasesPanel::menuRequested, this, show_menu);
   connect(cases_, &CaseStrip::addRequested, &files_, &SessionFiles::askForFiles);
   connect(&parts_.cases, &CaseController::caseChosen, cases_, &CaseStrip::setCurrent);
   connect(&workspaces_, &Workspaces::changed, this, &WindowFrame::arrange);

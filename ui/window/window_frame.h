@@ -5,8 +5,6 @@
 
 #include "ui/window/window_parts.h"
 
-class QAction;
-class QDockWidget;
 class QMainWindow;
 class QStackedWidget;
 class QWidget;
@@ -30,15 +28,14 @@ class WindowFrame : public QObject {
   Q_OBJECT
 
  public:
-  WindowFrame(QMainWindow& window, QMainWindow& body, const WindowParts& parts,
-              const WindowDocks& docks, Workspaces& workspaces, SessionFiles& files);
+  WindowFrame(QMainWindow& window, QMainWindow& body, WindowParts& parts, const WindowDocks& docks,
+              Workspaces& workspaces, SessionFiles& files);
 
   VerdictBar& verdict() { return *verdict_; }
   JobStrip& jobs() { return *jobs_; }
   RunBar& runBar() { return *run_bar_; }
   CaseStrip& cases() { return *cases_; }
   StartPage& start() { return *start_; }
-  TopBar& topBar() { return *top_bar_; }
   /// Creates the top bar with the menus.
   void takeMenus();
   /// Arranges the parts by the size of the window, the workspace, and the source of the shown run.
@@ -53,7 +50,7 @@ class WindowFrame : public QObject {
 
   QMainWindow& window_;
   QMainWindow& body_;
-  WindowParts parts_;
+  WindowParts& parts_;
   const WindowDocks& docks_;
   Workspaces& workspaces_;
   SessionFiles& files_;

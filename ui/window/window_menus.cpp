@@ -2,6 +2,7 @@
 #include "ui/window/window_menus.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QtWidgets>
 
@@ -11,6 +12,7 @@
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/loupe.h"
 #include "ui/manual/manual_window.h"
+#include "ui/models/text.h"
 #include "ui/panels/annotate/mask_panel.h"
 #include "ui/panels/diagnose/iterations_panel.h"
 #include "ui/panels/run/nudge_gizmo.h"
@@ -57,7 +59,7 @@ void connectSwitch(QAction* action, Owner* owner, bool (Owner::*isOn)() const,
 
 }  // namespace
 
-WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
+WindowMenus::WindowMenus(QMainWindow& window, WindowParts& parts, const WindowDocks& docks,
                          Workspaces& workspaces, RunBar& run_bar, SessionFiles& files)
     : QObject(&window),
       window_(window),
@@ -191,7 +193,7 @@ void WindowMenus::connectRun() {
   on(ui_.runAll, this, [this] {
     QStringList ids;
     for (const auto& session_case : parts_.document.session().cases)
-      ids << QString::fromStdString(session_case->id);
+      ids << fromText(session_case->id);
     parts_.cases.runAll(ids);
   });
   on(ui_.runRest, cases, &CaseController::runRest);
@@ -235,11 +237,7 @@ void WindowMenus::updateTogether(bool idle) {
 /// The steps of the scrubber: its buttons name and enable them, the menu gives them their keys.
 void WindowMenus::fillGoMenu() {
   using Scrub = RunScrubber::Step;
-  struct Key {
-    Scrub step;
-    const char* keys;
-  };
-  static constexpr Key kKeys[] = {
+  static constexpr std::pair<Scrub, const char*> kKeys[] = {
       {Scrub::kPrevious, "Ctrl+Left"},
       {Scrub::kNext, "Ctrl+Right"},
       {Scrub::kPreviousStage, "Ctrl+Shift+Left"},
@@ -247,10 +245,9 @@ void WindowMenus::fillGoMenu() {
       {Scrub::kFirst, "Ctrl+Home"},
       {Scrub::kLast, "Ctrl+End"},
   };
-  const RunScrubber* scrubber = &run_bar_.scrubber();
-  for (const Key& each : kKeys) {
-    QAction* go = scrubber->action(each.step);
-    go->setShortcut(QKeySequence(QString::fromLatin1(each.keys)));
+  for (const auto& [step, key] : kKeys) {
+    QAction* go = run_bar_.scrubber().action(step);
+    go->setShortcut(keys(key));
     setTip(*go, go->toolTip());
     ui_.goMenu->addAction(go);
   }
@@ -261,10 +258,9 @@ void WindowMenus::fillWorkspaces() {
   auto* group = new QActionGroup(ui_.viewMenu);
   for (int i = 0; i < kWorkspaceCount; ++i) {
     const auto workspace = static_cast<Workspace>(i);
-    auto* each = new QAction(
-        QCoreApplication::translate("Workspace", workspaceInfo(workspace).name), ui_.viewMenu);
+    auto* each = new QAction(workspaceTitle(workspace), ui_.viewMenu);
     each->setShortcut(QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1)));
-    each->setStatusTip(QCoreApplication::translate("Workspace", workspaceInfo(workspace).help));
+    each->setStatusTip(workspaceHelp(workspace));
     each->setCheckable(true);
     group->addAction(each);
     ui_.viewMenu->insertAction(ui_.layersMenu->menuAction(), each);
@@ -280,20 +276,19 @@ void WindowMenus::fillWorkspaces() {
 }
 
 void WindowMenus::showCase(int steps) {
-  const auto& cases = parts_.document.session().cases;
-  const std::string shown = parts_.cases.caseId().toStdString();
-  const auto count = static_cast<int>(cases.size());
-  for (int i = 0; i < count; ++i)
-    if (cases[static_cast<std::size_t>(i)]->id == shown && i + steps >= 0 && i + steps < count)
-      return parts_.cases.chooseCase(
-          QString::fromStdString(cases[static_cast<std::size_t>(i + steps)]->id));
+  QStringList ids;
+  for (const auto& session_case : parts_.document.session().cases)
+    ids << fromText(session_case->id);
+  const int shown = static_cast<int>(ids.indexOf(parts_.cases.caseId()));
+  const QString next = shown < 0 ? QString() : ids.value(shown + steps);
+  if (!next.isEmpty()) parts_.cases.chooseCase(next);
 }
 
 void WindowMenus::connectView() {
   ImagePanel* image = &docks_.image;
-  on(ui_.blink, image, &ImagePanel::toggleBlink);
-  on(ui_.swipe, image, &ImagePanel::toggleSwipe);
-  on(ui_.coreView, image, &ImagePanel::toggleCoreView);
+  on(ui_.blink, &image->blink(), &QAction::toggle);
+  on(ui_.swipe, &image->swipe(), &QAction::toggle);
+  on(ui_.coreView, &image->coreView(), &QAction::toggle);
   on(ui_.review, this, [this] { workspaces_.reveal(QStringLiteral("review")); });
   on(ui_.arrange, &workspaces_, &Workspaces::arrange);
   on(ui_.sidePane, this, [this] { workspaces_.toggleArea(Qt::RightDockWidgetArea); });
@@ -328,11 +323,8 @@ void WindowMenus::fillLayersMenu() {
     QAction* each = ui_.layersMenu->addAction(tr(info.name));
     each->setShortcut(keys(info.key));
     each->setStatusTip(tr(info.help));
-    on(each, this, [this, id = info.id] {
-      LayerStyle style = docks_.image.style(id);
-      style.visible = !style.visible;
-      docks_.image.setStyle(id, style);
-    });
+    on(each, this,
+       [this, id = info.id] { docks_.image.showLayer(id, !docks_.image.style(id).visible); });
   }
 }
 
@@ -357,36 +349,32 @@ void WindowMenus::showAbout() {
 void WindowMenus::undo() {
   docks_.poses.nudgeController().finishGesture();  // what is under way is undone first
   parts_.annotation.finishMove();
-  const sessions::Session before = parts_.document.session();
-  const QString text = parts_.document.undoText();
-  if (parts_.document.undo()) showChange(before, tr("Undone: %1").arg(text));
+  change(&Document::undo, tr("Undone: %1").arg(parts_.document.undoText()));
 }
 
 void WindowMenus::redo() {
-  const sessions::Session before = parts_.document.session();
-  const QString text = parts_.document.redoText();
-  if (parts_.document.redo()) showChange(before, tr("Redone: %1").arg(text));
+  change(&Document::redo, tr("Redone: %1").arg(parts_.document.redoText()));
 }
 
-void WindowMenus::showChange(const sessions::Session& before, const QString& told) {
+void WindowMenus::change(bool (Document::*act)(), const QString& told) {
+  const sessions::Session before = parts_.document.session();
+  if (!(parts_.document.*act)()) return;
   const auto changed = sessions::changedCases(before, parts_.document.session());
-  const std::string shown = parts_.cases.caseId().toStdString();
-  QString message = told;
-  if (!changed.empty() && std::find(changed.begin(), changed.end(), shown) == changed.end()) {
-    const QString other = QString::fromStdString(changed.front());
-    message = tr("%1, in %2 (now shown)").arg(told, other);
+  shown_change_ = told;
+  if (!changed.empty() &&
+      std::ranges::find(changed, parts_.cases.caseId().toStdString()) == changed.end()) {
+    const QString other = fromText(changed.front());
+    shown_change_ = tr("%1, in %2 (now shown)").arg(told, other);
     parts_.cases.chooseCase(other);
   }
-  window_.statusBar()->showMessage(message);
-  shown_change_ = message;
+  window_.statusBar()->showMessage(shown_change_);
 }
 
 void WindowMenus::showRecent() {
   ui_.recentMenu->clear();
   const QStringList files = recentFiles();
   for (const QString& file : files) {
-    QAction* each = ui_.recentMenu->addAction(file);
-    connect(each, &QAction::triggered, this, [this, file] {
+    ui_.recentMenu->addAction(file, this, [this, file] {
       if (files_.mayLeave()) files_.open(file.toStdString());
     });
   }
@@ -397,8 +385,10 @@ void WindowMenus::update() {
   const Document& document = parts_.document;
   const bool open = document.isOpen();
   const bool editable = document.isEditable();
-  const bool working = parts_.run.state() == RunState::kWorking || parts_.cases.batch();
+  const bool working = parts_.cases.isWorking();
   const bool has_case = parts_.state.currentCase() != nullptr;
+  const bool idle = has_case && !working;
+  const bool replayed = parts_.onboard.showsOnboard();
   ui_.save->setEnabled(editable && (document.isModified() || document.isUntitled() ||
                                     !parts_.cases.unstoredRuns().isEmpty()));
   ui_.saveAs->setEnabled(open);
@@ -408,24 +398,22 @@ void WindowMenus::update() {
   ui_.redo->setText(document.canRedo() ? tr("&Redo: %1").arg(document.redoText()) : tr("&Redo"));
   const QString obstacle = parts_.cases.whyNotRunnable();
   for (QAction* each : {ui_.runToEnd, ui_.stepIteration, ui_.stepStage})
-    each->setEnabled(has_case && !working && obstacle.isEmpty());
+    each->setEnabled(idle && obstacle.isEmpty());
   if (run_tip_.isEmpty()) run_tip_ = ui_.runToEnd->statusTip();
   setTip(*ui_.runToEnd, obstacle.isEmpty() ? run_tip_ : obstacle);
   ui_.closeSession->setEnabled(open);
-  ui_.rerunFromHere->setEnabled(has_case && !working && parts_.state.snapshot());
-  updateTogether(has_case && !working);
+  ui_.rerunFromHere->setEnabled(idle && parts_.state.snapshot() && !replayed);
+  updateTogether(idle);
   ui_.stop->setEnabled(true);  // there is no moment at which it does not stop
-  ui_.reset->setEnabled(has_case && !working && parts_.state.snapshot());
+  ui_.reset->setEnabled(idle && parts_.state.snapshot());
   const QList<QAction*> edits = ui_.maskMenu->actions() + annotation_edits_;
   for (QAction* each : edits) each->setEnabled(editable && has_case);
   ui_.changeMenu->setEnabled(editable && !working && !parts_.cases.caseId().isEmpty());
-  const bool replayed = parts_.onboard.showsOnboard();
   ui_.loadRecord->setEnabled(editable && has_case);
-  ui_.showOtherRun->setEnabled(parts_.onboard.review() && !working);
-  ui_.rerunRecord->setEnabled(parts_.onboard.review() && !working);
+  for (QAction* each : {ui_.showOtherRun, ui_.rerunRecord})
+    each->setEnabled(parts_.onboard.review() && !working);
   ui_.firstDifference->setEnabled(parts_.onboard.comparison() &&
                                   parts_.onboard.comparison()->first.has_value());
-  ui_.rerunFromHere->setEnabled(ui_.rerunFromHere->isEnabled() && !replayed);
   for (QAction* each : {ui_.runAll, ui_.runRest})
     each->setEnabled(open && !working && !document.session().cases.empty());
   ui_.runSequence->setEnabled(has_case || parts_.sequence.isRunning());

@@ -10,8 +10,6 @@
 #include "ui/annotation/annotation_controller.h"
 #include "ui/window/window_parts.h"
 
-class QAction;
-
 namespace boresight::ui {
 
 class PoseExport;
@@ -27,7 +25,7 @@ class WindowMenus : public QObject {
   Q_OBJECT
 
  public:
-  WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
+  WindowMenus(QMainWindow& window, WindowParts& parts, const WindowDocks& docks,
               Workspaces& workspaces, RunBar& run_bar, SessionFiles& files);
 
   /// Enables the actions that are possible now.
@@ -57,14 +55,14 @@ class WindowMenus : public QObject {
   /// An edit of a case other than the shown one also shows that case, with a message.
   void undo();
   void redo();
-  void showChange(const sessions::Session& before, const QString& told);
+  void change(bool (Document::*act)(), const QString& told);
   void updateTogether(bool idle);
   void showSequence();
   void showRecent();
   void showAbout();
 
   QMainWindow& window_;
-  WindowParts parts_;
+  WindowParts& parts_;
   const WindowDocks& docks_;
   Workspaces& workspaces_;
   RunBar& run_bar_;
@@ -76,8 +74,6 @@ class WindowMenus : public QObject {
   QString run_tip_;       ///< of "Run"
   QString together_tip_;  ///< of "Run with the other views"
   QString shown_change_;  ///< text in the status bar on the last undo or redo
-  QList<QAction*> mask_actions_;
-  QList<QAction*> annotation_actions_;
 };
 
 }  // namespace boresight::ui

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace boresight::ui {
+#include "ui/annotation/annotation_controller.h"
+#include "ui/review/onboard_controller.h"
+#include "ui/review/quality_controller.h"
+#include "ui/run/export_runner.h"
+#include "ui/run/run_controller.h"
+#include "ui/run/sequence_runner.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
+#include "ui/window/case_controller.h"
 
-class AnnotationController;
-class CaseController;
-class Document;
-class ExportRunner;
-class OnboardController;
-class QualityController;
-class RunController;
-class SequenceRunner;
-class TaskRunner;
-class ViewState;
+namespace boresight::ui {
 
 /// Objects shared by the parts of the window. The window owns them, and they outlive the parts.
 struct WindowParts {
-  Document& document;
-  ViewState& state;
-  TaskRunner& tasks;
-  RunController& run;
-  CaseController& cases;
-  AnnotationController& annotation;
-  OnboardController& onboard;
-  QualityController& quality;
-  SequenceRunner& sequence;
-  ExportRunner& exports;
+  Document document;
+  ViewState state;
+  TaskRunner tasks;
+  RunController run;
+  CaseController cases{document, state, run, tasks};
+  AnnotationController annotation{document, state};
+  OnboardController onboard{document, state, tasks};
+  QualityController quality{document, state, tasks};
+  SequenceRunner sequence;
+  ExportRunner exports;
 };
 
 }  // namespace boresight::ui

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/workspaces/canvas_frame.h"
 
+#include <utility>
+
 #include <QtWidgets>
 
 #include "ui/style/tokens.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
+namespace {
+
+/// Name in the style sheet and width of the frame in pixels, in the order of `CanvasSource`.
+constexpr std::pair<const char*, int> kFrames[] = {
+    {"", 0}, {"onboard", kOnboardFrame_px}, {"ground", kGroundFrame_px}};
+
+}  // namespace
 
 CanvasFrame::CanvasFrame(QWidget& canvas, QWidget* parent)
     : QFrame(parent), head_(named(new QLabel, "canvasHead")) {
   setObjectName(QStringLiteral("canvasFrame"));
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
+  auto* column = withoutMargins(new QVBoxLayout(this));
   column->addWidget(head_);
   column->addWidget(&canvas, 1);
   head_->setFixedHeight(kPanelHeadHeight);
@@ -24,22 +31,14 @@ void CanvasFrame::setSource(CanvasSource source) {
   if (source == source_) return;
   source_ = source;
   const bool onboard = source == CanvasSource::kOnboard;
-  const QString name = onboard                           ? QStringLiteral("onboard")
-                       : source == CanvasSource::kGround ? QStringLiteral("ground")
-                                                         : QString();
-  const int margin = onboard                           ? kOnboardFrame_px
-                     : source == CanvasSource::kGround ? kGroundFrame_px
-                                                       : 0;
-  setProperty("source", name);
-  head_->setProperty("source", name);
+  const auto& [name, margin] = kFrames[static_cast<std::size_t>(source)];
+  setProperty("source", QLatin1String(name));
+  head_->setProperty("source", QLatin1String(name));
   head_->setVisible(source != CanvasSource::kOnly);
   head_->setText(onboard ? tr("ONBOARD    as the spacecraft computed it; record read only")
                          : tr("GROUND    run here"));
   layout()->setContentsMargins(margin, onboard ? 0 : margin, margin, margin);
-  for (QWidget* each : std::initializer_list<QWidget*>{this, head_}) {
-    each->style()->unpolish(each);
-    each->style()->polish(each);
-  }
+  restyle({this, head_});
   update();
 }
 

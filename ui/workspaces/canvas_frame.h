@@ -4,7 +4,6 @@
 #include <QFrame>
 
 class QLabel;
-class QVBoxLayout;
 
 namespace boresight::ui {
 
@@ -20,7 +19,6 @@ class CanvasFrame : public QFrame {
   explicit CanvasFrame(QWidget& canvas, QWidget* parent = nullptr);
 
   void setSource(CanvasSource source);
-  CanvasSource source() const { return source_; }
 
  private:
   CanvasSource source_ = CanvasSource::kOnboard;

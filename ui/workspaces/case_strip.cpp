@@ -12,48 +12,21 @@
 namespace boresight::ui {
 namespace {
 
-/// Place in the order of decisions.
-int decisionRank(CaseState state) {
-  switch (state) {
-    case CaseState::kFailed:
-      return 0;
-    case CaseState::kConverged:
-    case CaseState::kAnnotated:
-      return 1;
-    case CaseState::kRunning:
-    case CaseState::kNew:
-      return 2;
-    case CaseState::kRejected:
-    case CaseState::kValidated:
-      return 3;
-  }
-  return 3;
-}
-
 struct Badge {
   QRgb color;
   Icon icon;
+  int rank;  ///< place in the order of decisions
 };
 
-Badge badgeOf(CaseState state) {
-  switch (state) {
-    case CaseState::kNew:
-      return {kBadgeNew, Icon::kDot};
-    case CaseState::kConverged:
-      return {kBadgeConverged, Icon::kCheck};
-    case CaseState::kFailed:
-      return {kBadgeFailed, Icon::kCross};
-    case CaseState::kAnnotated:
-      return {kBadgeAnnotated, Icon::kPencil};
-    case CaseState::kValidated:
-      return {kBadgeValidated, Icon::kShield};
-    case CaseState::kRejected:
-      return {kBadgeFailed, Icon::kFlag};
-    case CaseState::kRunning:
-      return {kBadgeRunning, Icon::kRun};
-  }
-  return {kBadgeNew, Icon::kDot};
-}
+/// In the order of `CaseState`.
+constexpr Badge kBadges[kCaseStateCount] = {
+    {kBadgeNew, Icon::kDot, 2},          {kBadgeConverged, Icon::kCheck, 1},
+    {kBadgeFailed, Icon::kCross, 0},     {kBadgeAnnotated, Icon::kPencil, 1},
+    {kBadgeValidated, Icon::kShield, 3}, {kBadgeFailed, Icon::kFlag, 3},
+    {kBadgeRunning, Icon::kRun, 2},
+};
+
+const Badge& badgeOf(CaseState state) { return kBadges[static_cast<std::size_t>(state)]; }
 
 /// A picture, the badge at its lower right corner, and below it the name where there is room.
 class CaseTile final : public QStyledItemDelegate {
@@ -157,7 +130,7 @@ class DecisionOrder final : public QSortFilterProxyModel {
  protected:
   bool lessThan(const QModelIndex& left, const QModelIndex& right) const override {
     const auto rank = [this](const QModelIndex& index) {
-      return for_decisions_ ? decisionRank(model_.at(index.row()).state) : 0;
+      return for_decisions_ ? badgeOf(model_.at(index.row()).state).rank : 0;
     };
     return std::pair(rank(left), left.row()) < std::pair(rank(right), right.row());
   }
@@ -168,52 +141,33 @@ class DecisionOrder final : public QSortFilterProxyModel {
 };
 
 CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
-    : QFrame(parent),
-      model_(model),
-      order_(new DecisionOrder(model, this)),
-      filter_(named(new QToolButton, "stripFilter", tr("List, filter and run the cases"))),
-      list_(named(new QListView, "stripList")) {
-  setObjectName(QStringLiteral("caseStrip"));
-  filter_->setIcon(iconOf(Icon::kFilter, &Theme::text2));
-  filter_->setFixedHeight(kVerdictHeight);
-  filter_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  list_->setModel(order_);
-  list_->setItemDelegate(new CaseTile(list_));
-  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
-  list_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  list_->setAccessibleName(tr("Cases"));
-  list_->setFrameShape(QFrame::NoFrame);
-  auto* add = named(new QToolButton, "stripAdd", tr("Add a case from files (Ctrl+N)"));
-  add->setIcon(iconOf(Icon::kPlus));
-  add->setAccessibleName(tr("Add a case"));
-  add->setFixedHeight(kSmallButtonHeight + 8);
-  add->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(filter_);
-  column->addWidget(list_, 1);
-  column->addWidget(add);
-  connect(filter_, &QToolButton::clicked, this, &CaseStrip::listRequested);
-  connect(add, &QToolButton::clicked, this, &CaseStrip::addRequested);
-  connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+    : QFrame(parent), model_(model), order_(new DecisionOrder(model, this)) {
+  ui_.setupUi(this);
+  ui_.stripFilter->setIcon(iconOf(Icon::kFilter, &Theme::text2));
+  ui_.stripFilter->setFixedHeight(kVerdictHeight);
+  ui_.stripList->setModel(order_);
+  ui_.stripList->setItemDelegate(new CaseTile(ui_.stripList));
+  ui_.stripAdd->setIcon(iconOf(Icon::kPlus));
+  ui_.stripAdd->setFixedHeight(kSmallButtonHeight + 8);
+  connect(ui_.stripFilter, &QToolButton::clicked, this, &CaseStrip::listRequested);
+  connect(ui_.stripAdd, &QToolButton::clicked, this, &CaseStrip::addRequested);
+  connect(ui_.stripList->selectionModel(), &QItemSelectionModel::currentChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_ && current.isValid()) Q_EMIT caseRequested(idAt(current));
           });
-  list_->setContextMenuPolicy(Qt::CustomContextMenu);
-  connect(list_, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
-    const QModelIndex index = list_->indexAt(at);
-    if (index.isValid()) Q_EMIT menuRequested(idAt(index), list_->viewport()->mapToGlobal(at));
+  connect(ui_.stripList, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+    const QModelIndex index = ui_.stripList->indexAt(at);
+    if (index.isValid())
+      Q_EMIT menuRequested(idAt(index), ui_.stripList->viewport()->mapToGlobal(at));
   });
-  connect(&model_, &QAbstractItemModel::modelReset, this, &CaseStrip::showRows);
-  connect(&model_, &QAbstractItemModel::rowsInserted, this, &CaseStrip::showRows);
+  connectEach(model_, this, &CaseStrip::showRows, &QAbstractItemModel::modelReset,
+              &QAbstractItemModel::rowsInserted);
   setNarrow(false);
   showRows();
 }
 
 void CaseStrip::showRows() {
-  filter_->setText(QString::number(model_.rowCount()));
+  ui_.stripFilter->setText(QString::number(model_.rowCount()));
   setCurrent(current_);
 }
 
@@ -227,18 +181,19 @@ void CaseStrip::setForDecisions(bool for_decisions) {
 }
 
 void CaseStrip::setNarrow(bool narrow) {
-  static_cast<CaseTile*>(list_->itemDelegate())->setNarrow(narrow);
-  filter_->setToolButtonStyle(narrow ? Qt::ToolButtonTextUnderIcon : Qt::ToolButtonTextBesideIcon);
+  static_cast<CaseTile*>(ui_.stripList->itemDelegate())->setNarrow(narrow);
+  ui_.stripFilter->setToolButtonStyle(narrow ? Qt::ToolButtonTextUnderIcon
+                                             : Qt::ToolButtonTextBesideIcon);
   setFixedWidth((narrow ? kNarrow : kWide).strip_width);
-  list_->doItemsLayout();
+  ui_.stripList->doItemsLayout();
 }
 
 void CaseStrip::setCurrent(const QString& id) {
   current_ = id;
   showing_ = true;
   const QModelIndex index = order_->mapFromSource(model_.index(model_.rowOf(id), 0));
-  list_->setCurrentIndex(index);
-  if (index.isValid()) list_->scrollTo(index);
+  ui_.stripList->setCurrentIndex(index);
+  if (index.isValid()) ui_.stripList->scrollTo(index);
   showing_ = false;
 }
 

@@ -4,8 +4,7 @@
 #include <QFrame>
 #include <QString>
 
-class QListView;
-class QToolButton;
+#include "ui_case_strip.h"
 
 namespace boresight::ui {
 
@@ -26,7 +25,7 @@ class CaseStrip : public QFrame {
   /// Sorts for review: failed cases first, then those to decide on, then those not run, then
   /// decided ones. Otherwise the order is the session's.
   void setForDecisions(bool for_decisions);
-  QListView& list() { return *list_; }
+  QListView& list() { return *ui_.stripList; }
 
  Q_SIGNALS:
   void caseRequested(const QString& id);
@@ -40,10 +39,9 @@ class CaseStrip : public QFrame {
   QString idAt(const QModelIndex& index) const;
 
   CasesModel& model_;
-  DecisionOrder* order_ = nullptr;
-  QToolButton* filter_ = nullptr;
-  QListView* list_ = nullptr;
-  QString current_;  ///< the case that the window shows
+  DecisionOrder* order_;
+  Ui::CaseStrip ui_;
+  QString current_;       ///< the case that the window shows
   bool showing_ = false;  ///< the list is being updated by the window, not the operator
 };
 

@@ -4,25 +4,21 @@
 #include <QtWidgets>
 
 #include "ui/style/tokens.h"
+#include "ui/widgets/widgets.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 
 DrawerBar::DrawerBar(Workspaces& workspaces, QWidget* parent)
-    : QFrame(parent), workspaces_(workspaces), row_(new QHBoxLayout(this)) {
+    : QFrame(parent), workspaces_(workspaces), row_(withoutMargins(new QHBoxLayout(this))) {
   setObjectName(QStringLiteral("drawerBar"));
   setFixedHeight(kDrawerHandleHeight);
-  row_->setContentsMargins(0, 0, 0, 0);
-  row_->setSpacing(0);
   connect(&workspaces_, &Workspaces::changed, this, &DrawerBar::showWorkspace);
   showWorkspace();
 }
 
 void DrawerBar::showWorkspace() {
-  while (QLayoutItem* item = row_->takeAt(0)) {
-    delete item->widget();
-    delete item;
-  }
+  clearLayout(*row_);
   const WorkspaceInfo& info = workspaceInfo(workspaces_.current());
   const bool useful = workspaces_.isNarrow() && info.handles;
   setVisible(useful);

@@ -15,55 +15,30 @@ QString durationText(double seconds) {
                         : JobStrip::tr("%1 min").arg(std::ceil(seconds / 60.0));
 }
 
-JobStrip::JobStrip(QWidget* parent)
-    : QFrame(parent),
-      name_(named(new QLabel, "runState")),
-      progress_(named(new QProgressBar, "jobProgress")),
-      count_(named(new QLabel, "jobCount")),
-      left_(named(new QLabel, "jobLeft")),
-      stop_(named(new QPushButton(iconOf(Icon::kStop), tr("Stop")), "jobStop",
-                  tr("Stop all jobs, also between two cases of a batch (Esc, F8)"))),
-      step_(named(new QPushButton, "jobStep")),
-      detail_(named(new QLabel, "jobDetail")),
-      place_(named(new QLabel, "place")),
-      saved_(named(new QLabel, "savedState")) {
-  setObjectName(QStringLiteral("jobStrip"));
+JobStrip::JobStrip(QWidget* parent) : QFrame(parent) {
+  ui_.setupUi(this);
   setFixedHeight(kJobStripHeight);
-  progress_->setTextVisible(false);
-  progress_->setFixedWidth(120);
-  progress_->setFixedHeight(6);
-  for (QPushButton* each : {stop_, step_}) each->setFixedHeight(kJobStripHeight - 6);
-  detail_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(12, 0, 12, 0);
-  row->setSpacing(12);
-  for (QWidget* each : std::initializer_list<QWidget*>{name_, progress_, count_, left_, stop_})
-    row->addWidget(each);
-  row->addWidget(detail_, 1);
-  row->addWidget(step_);
-  row->addWidget(place_);
-  row->addWidget(saved_);
-  connect(stop_, &QPushButton::clicked, this, &JobStrip::stopRequested);
-  connect(step_, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(job_.step); });
-  setJob({tr("Ready"), {}, 0, 0, std::nullopt, false});
+  ui_.jobStop->setIcon(iconOf(Icon::kStop));
+  for (QPushButton* each : {ui_.jobStop, ui_.jobStep}) each->setFixedHeight(kJobStripHeight - 6);
+  connect(ui_.jobStop, &QPushButton::clicked, this, &JobStrip::stopRequested);
+  connect(ui_.jobStep, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(job_.step); });
+  setJob({.name = tr("Ready")});
 }
 
 void JobStrip::setJob(const Job& job) {
   job_ = job;
-  name_->setText(job.name);
-  progress_->setVisible(job.runs);
-  progress_->setRange(0, job.of);  // without a count it moves to and fro
-  progress_->setValue(job.done);
-  count_->setVisible(job.runs && job.of > 0);
-  count_->setText(tr("%1 of %2 done").arg(job.done).arg(job.of));
-  left_->setVisible(job.runs && job.seconds_left.has_value());
-  left_->setText(job.seconds_left ? tr("%1 left").arg(durationText(*job.seconds_left)) : QString());
-  stop_->setVisible(job.runs && job.stops);
-  const StepInfo& info = stepInfo(job.step);
-  step_->setText(QCoreApplication::translate("Step", info.text));
-  step_->setToolTip(QCoreApplication::translate("Step", info.help));
-  step_->setIcon(iconOf(info.icon));
-  step_->setVisible(job.step != Step::kNone);
+  ui_.runState->setText(job.name);
+  ui_.jobProgress->setVisible(job.runs);
+  ui_.jobProgress->setRange(0, job.of);  // without a count it moves to and fro
+  ui_.jobProgress->setValue(job.done);
+  ui_.jobCount->setVisible(job.runs && job.of > 0);
+  ui_.jobCount->setText(tr("%1 of %2 done").arg(job.done).arg(job.of));
+  ui_.jobLeft->setVisible(job.runs && job.seconds_left.has_value());
+  ui_.jobLeft->setText(job.seconds_left ? tr("%1 left").arg(durationText(*job.seconds_left))
+                                        : QString());
+  ui_.jobStop->setVisible(job.runs && job.stops);
+  showStep(*ui_.jobStep, job.step);
+  ui_.jobStep->setVisible(job.step != Step::kNone);
   showDetail();
 }
 
@@ -72,14 +47,15 @@ void JobStrip::setNote(const QString& note) {
   showDetail();
 }
 
-void JobStrip::setPlace(const QString& place) { place_->setText(place); }
-void JobStrip::setSaved(const QString& saved) { saved_->setText(saved); }
+void JobStrip::setPlace(const QString& place) { ui_.place->setText(place); }
+void JobStrip::setSaved(const QString& saved) { ui_.savedState->setText(saved); }
 
 void JobStrip::showDetail() {
   const QString text = note_.isEmpty() ? job_.detail : note_;
   layout()->activate();
-  detail_->setText(detail_->fontMetrics().elidedText(text, Qt::ElideRight, detail_->width()));
-  detail_->setToolTip(text);
+  ui_.jobDetail->setText(
+      ui_.jobDetail->fontMetrics().elidedText(text, Qt::ElideRight, ui_.jobDetail->width()));
+  ui_.jobDetail->setToolTip(text);
 }
 
 void JobStrip::resizeEvent(QResizeEvent* event) {

@@ -6,21 +6,19 @@
 #include <QFrame>
 #include <QString>
 
-#include "ui/workspaces/step.h"
+#include "ui_job_strip.h"
 
-class QLabel;
-class QProgressBar;
-class QPushButton;
+#include "ui/workspaces/step.h"
 
 namespace boresight::ui {
 
 /// The running job, or the last one.
 struct Job {
-  QString name;    ///< "Running all cases", "Ready"
-  QString detail;  ///< "bc-000035, iteration 2"
+  QString name;         ///< "Running all cases", "Ready"
+  QString detail = {};  ///< "bc-000035, iteration 2"
   int done = 0;
   int of = 0;  ///< 0: nothing to count
-  std::optional<double> seconds_left;
+  std::optional<double> seconds_left = {};
   bool runs = false;
   bool stops = true;        ///< on request, while it runs
   Step step = Step::kNone;  ///< offered while nothing runs
@@ -45,7 +43,7 @@ class JobStrip : public QFrame {
   void setNote(const QString& note);
   void setPlace(const QString& place);
   void setSaved(const QString& saved);
-  QPushButton& stop() { return *stop_; }
+  QPushButton& stop() { return *ui_.jobStop; }
 
  Q_SIGNALS:
   void stopRequested();
@@ -59,15 +57,7 @@ class JobStrip : public QFrame {
 
   Job job_;
   QString note_;
-  QLabel* name_ = nullptr;
-  QProgressBar* progress_ = nullptr;
-  QLabel* count_ = nullptr;
-  QLabel* left_ = nullptr;
-  QPushButton* stop_ = nullptr;
-  QPushButton* step_ = nullptr;
-  QLabel* detail_ = nullptr;
-  QLabel* place_ = nullptr;
-  QLabel* saved_ = nullptr;
+  Ui::JobStrip ui_;
 };
 
 }  // namespace boresight::ui

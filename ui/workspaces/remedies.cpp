@@ -8,68 +8,54 @@
 #include <QCoreApplication>
 #include <QStringList>
 
-#include "sessions/trace/run_headline.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr Remedy kWider = {Step::kWiderSearch,
-                           QT_TR_NOOP("The seed looks turned about the view axis")};
-constexpr Remedy kNudge = {Step::kNudgeSeed, QT_TR_NOOP("The seed looks right, but displaced")};
+constexpr Remedy kWider = {Step::kWiderSearch, "The seed looks turned about the view axis"};
+constexpr Remedy kNudge = {Step::kNudgeSeed, "The seed looks right, but displaced"};
 constexpr Remedy kFarther = {
     Step::kUncertainty,
-    QT_TR_NOOP(
-        "Matches lie at the border of what was searched: the seed is farther off than stated")};
-constexpr Remedy kMasked = {
-    Step::kMask, QT_TR_NOOP("Something hides part of the station, or print and shadows add edges")};
-constexpr Remedy kMarks = {Step::kAnnotate,
-                           QT_TR_NOOP("Nothing else helps: four marked points give a seed")};
-constexpr Remedy kSheet = {
-    Step::kInputs, QT_TR_NOOP("Mesh, unit, camera or calibration may be wrong: see the warnings")};
-constexpr Remedy kOthers = {
-    Step::kCompetingPoses,
-    QT_TR_NOOP("The station repeats itself: another pose explains the image as well")};
+    "Matches lie at the border of what was searched: the seed is farther off than stated"};
+constexpr Remedy kMasked = {Step::kMask,
+                            "Something hides part of the station, or print and shadows add edges"};
+constexpr Remedy kMarks = {Step::kAnnotate, "Nothing else helps: four marked points give a seed"};
+constexpr Remedy kSheet = {Step::kInputs,
+                           "Mesh, unit, camera or calibration may be wrong: see the warnings"};
+constexpr Remedy kOthers = {Step::kCompetingPoses,
+                            "The station repeats itself: another pose explains the image as well"};
 
-const std::vector<Remedy>& likeliestFor(const sessions::LocalizationTrace& trace) {
-  static const std::vector<Remedy> kNothing;
-  static const std::vector<Remedy> kTurned = {kWider, kNudge, kMasked, kFarther, kMarks, kSheet};
-  static const std::vector<Remedy> kFar = {kFarther, kNudge, kMarks, kSheet};
-  static const std::vector<Remedy> kFew = {kNudge, kWider, kMasked, kMarks, kSheet};
-  static const std::vector<Remedy> kAmbiguous = {kOthers, kNudge, kMarks, kSheet};
-  static const std::vector<Remedy> kInput = {kSheet, kMasked, kMarks};
-  if (!trace.finished || trace.converged()) return kNothing;
+std::vector<Remedy> likeliestFor(const sessions::LocalizationTrace& trace) {
+  if (!trace.finished || trace.converged()) return {};
   switch (trace.status) {
     case LocalizationStatus::kNotSupported:
-      return kTurned;
+      return {kWider, kNudge, kMasked, kFarther, kMarks, kSheet};
     case LocalizationStatus::kLeftUncertainty:
-      return kFar;
+      return {kFarther, kNudge, kMarks, kSheet};
     case LocalizationStatus::kAmbiguous:
-      return kAmbiguous;
+      return {kOthers, kNudge, kMarks, kSheet};
     case LocalizationStatus::kBlurred:
     case LocalizationStatus::kCameraMismatch:
     case LocalizationStatus::kFault:
-      return kInput;
+      return {kSheet, kMasked, kMarks};
     default:
-      return kFew;
+      return {kNudge, kWider, kMasked, kMarks, kSheet};
   }
 }
 
-/// As a part of "Tried: ..."; empty for what only shows something.
+/// As a part of "Tried: ..."; empty for a step that only shows something.
 const char* doneText(Step step) {
-  switch (step) {
-    case Step::kWiderSearch:
-      return QT_TRANSLATE_NOOP("Remedies", "wider search");
-    case Step::kNudgeSeed:
-      return QT_TRANSLATE_NOOP("Remedies", "nudged seed");
-    case Step::kMask:
-      return QT_TRANSLATE_NOOP("Remedies", "mask");
-    case Step::kUncertainty:
-      return QT_TRANSLATE_NOOP("Remedies", "stated uncertainty");
-    case Step::kAnnotate:
-      return QT_TRANSLATE_NOOP("Remedies", "annotations");
-    default:
-      return "";
-  }
+  static constexpr std::pair<Step, const char*> kTexts[] = {
+      {Step::kWiderSearch, QT_TRANSLATE_NOOP("Remedies", "wider search")},
+      {Step::kNudgeSeed, QT_TRANSLATE_NOOP("Remedies", "nudged seed")},
+      {Step::kMask, QT_TRANSLATE_NOOP("Remedies", "mask")},
+      {Step::kUncertainty, QT_TRANSLATE_NOOP("Remedies", "stated uncertainty")},
+      {Step::kAnnotate, QT_TRANSLATE_NOOP("Remedies", "annotations")},
+  };
+  for (const auto& [of, text] : kTexts)
+    if (of == step) return text;
+  return "";
 }
 
 }  // namespace
@@ -110,7 +96,7 @@ QString triedText(const std::vector<Remedy>& remedies) {
 
 /// What only shows something is no attempt.
 void RemedyMemory::note(const std::string& case_id, const std::string& digest, Step step) {
-  if (*doneText(step) != '\0') taken_[case_id].push_back({digest, step});
+  if (*doneText(step) != '\0') taken_[case_id].emplace_back(digest, step);
 }
 
 std::vector<Step> RemedyMemory::before(const std::string& case_id,
@@ -118,8 +104,8 @@ std::vector<Step> RemedyMemory::before(const std::string& case_id,
   std::vector<Step> steps;
   const auto found = taken_.find(case_id);
   if (found == taken_.end()) return steps;
-  for (const Taken& taken : found->second)
-    if (taken.digest != digest) steps.push_back(taken.step);
+  for (const auto& [failed, step] : found->second)
+    if (failed != digest) steps.push_back(step);
   return steps;
 }
 

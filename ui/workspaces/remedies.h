@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <QString>
@@ -40,11 +41,8 @@ class RemedyMemory {
   void clear() { taken_.clear(); }
 
  private:
-  struct Taken {
-    std::string digest;
-    Step step;
-  };
-  std::map<std::string, std::vector<Taken>> taken_;  ///< by case
+  /// By case: digests of failed runs, and what was done then.
+  std::map<std::string, std::vector<std::pair<std::string, Step>>> taken_;
 };
 
 }  // namespace boresight::ui

@@ -13,11 +13,8 @@ RemediesPanel::RemediesPanel(ViewState& state, QWidget* parent)
     : QWidget(parent),
       state_(state),
       status_(named(new Banner, "runStatus")),
-      rows_(new QVBoxLayout) {
-  auto* content = new QWidget;
-  content->setObjectName(QStringLiteral("remedies"));
-  rows_->setContentsMargins(0, 0, 0, 0);
-  rows_->setSpacing(8);
+      rows_(withoutMargins(new QVBoxLayout, 8)) {
+  auto* content = named(new QWidget, "remedies");
   content->setLayout(rows_);
   auto* scroll = new QScrollArea;
   scroll->setWidgetResizable(true);
@@ -33,16 +30,13 @@ RemediesPanel::RemediesPanel(ViewState& state, QWidget* parent)
 
 QWidget* RemediesPanel::rowOf(const Remedy& remedy) {
   auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  line->setSpacing(8);
-  const StepInfo& info = stepInfo(remedy.step);
+  auto* line = withoutMargins(new QHBoxLayout(row), 8);
   const QString text = QCoreApplication::translate("Remedies", remedy.cause);
   auto* cause = new QLabel(remedy.tried ? tr("Tried. %1").arg(text) : text);
   cause->setWordWrap(true);
   cause->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  auto* button = new QPushButton(iconOf(info.icon), QCoreApplication::translate("Step", info.text));
-  button->setToolTip(QCoreApplication::translate("Step", info.help));
+  auto* button = new QPushButton;
+  showStep(*button, remedy.step);
   button->setProperty("step", static_cast<int>(remedy.step));
   button->setMinimumWidth(kButtonHeight * 5);
   // Queued: the step may replace this very row.
@@ -61,22 +55,15 @@ void RemediesPanel::setTried(const std::vector<Step>& tried) {
 }
 
 void RemediesPanel::showRun() {
-  while (QLayoutItem* item = rows_->takeAt(0)) {
-    delete item->widget();
-    delete item;
-  }
+  clearLayout(*rows_);
   const auto run = state_.snapshot();
   status_->showRun(run.get());
-  shown_ = run ? remediesFor(*run, tried_) : std::vector<Remedy>();
-  if (shown_.empty()) {
-    auto* label =
-        new QLabel(run && run->converged() ? tr("The run converged: no remedies needed.")
-                                           : tr("Remedies are listed here after a failed run."));
-    label->setProperty("caption", true);
-    label->setWordWrap(true);
-    rows_->addWidget(label);
-  }
-  for (const Remedy& remedy : shown_) rows_->addWidget(rowOf(remedy));
+  const auto remedies = run ? remediesFor(*run, tried_) : std::vector<Remedy>();
+  if (remedies.empty())
+    rows_->addWidget(captionLabel(run && run->converged()
+                                      ? tr("The run converged: no remedies needed.")
+                                      : tr("Remedies are listed here after a failed run.")));
+  for (const Remedy& remedy : remedies) rows_->addWidget(rowOf(remedy));
   rows_->addStretch(1);
 }
 

@@ -22,7 +22,6 @@ class RemediesPanel : public QWidget {
  public:
   explicit RemediesPanel(ViewState& state, QWidget* parent = nullptr);
 
-  const std::vector<Remedy>& remedies() const { return shown_; }
   /// Sets the remedies tried before the shown run.
   void setTried(const std::vector<Step>& tried);
 
@@ -35,7 +34,6 @@ class RemediesPanel : public QWidget {
 
   ViewState& state_;
   std::vector<Step> tried_;
-  std::vector<Remedy> shown_;
   Banner* status_ = nullptr;  ///< measured and required values, in full
   QVBoxLayout* rows_ = nullptr;
 };

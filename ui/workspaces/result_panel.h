@@ -3,13 +3,10 @@
 
 #include <QWidget>
 
-class QHBoxLayout;
-class QLabel;
-class QTableWidget;
+#include "ui_result_panel.h"
 
 namespace boresight::ui {
 
-class LimitBar;
 class QualityController;
 class ViewState;
 
@@ -23,13 +20,14 @@ class ResultPanel : public QWidget {
 
  private:
   struct Figure {
-    QLabel* name = nullptr;
-    QLabel* value = nullptr;
-    LimitBar* bar = nullptr;
-    QLabel* needed = nullptr;
+    QLabel* name;
+    QLabel* value;
+    LimitBar* bar;
+    QLabel* needed;
   };
 
-  Figure addFigure(QHBoxLayout& row);
+  void setUpFigure(const Figure& figure);
+  static void clear(const Figure& figure, const QString& name);
   void showRun();
   void showAgreement();
   void showQuality();
@@ -37,11 +35,9 @@ class ResultPanel : public QWidget {
 
   ViewState& state_;
   QualityController& quality_;
+  Ui::ResultPanel ui_;
   Figure agreement_;
   Figure precision_;
-  QLabel* rejected_ = nullptr;
-  QLabel* heading_ = nullptr;
-  QTableWidget* pose_ = nullptr;
 };
 
 }  // namespace boresight::ui

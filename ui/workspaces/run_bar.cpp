@@ -33,45 +33,56 @@ QString correctionText(const ViewState& state) {
            numberText(1e3 * shown->correction_translation_m, 3));
 }
 
-}  // namespace
-
-CorrectionLine::CorrectionLine(ViewState& state) : state_(state) {
-  setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
-  setObjectName(QStringLiteral("correctionLine"));
-  setToolTip(tr("Translation by each iteration, logarithmic"));
-  setAccessibleName(toolTip());
-  state_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this, [this] { update(); });
-}
-
-QVector<QPointF> CorrectionLine::places() const {
-  std::vector<double> heights;
-  if (state_.snapshot())
-    for (const auto& iteration : state_.snapshot()->iterations)
-      heights.push_back(std::log10(std::max(kLeastMove_m, iteration->correction_translation_m)));
-  if (heights.size() < 2) return {};
-  const auto [least, most] = std::minmax_element(heights.begin(), heights.end());
-  const double span = std::max(1e-9, *most - *least);
-  const QRectF area = QRectF(rect()).adjusted(4.0, 8.0, -4.0, -8.0);
-  QVector<QPointF> places;
-  for (std::size_t i = 0; i < heights.size(); ++i)
-    places << QPointF(area.left() + area.width() * static_cast<double>(i) /
-                                        static_cast<double>(heights.size() - 1),
-                      area.bottom() - area.height() * (heights[i] - *least) / span);
-  return places;
-}
-
-void CorrectionLine::paintEvent(QPaintEvent* /*event*/) {
-  const QVector<QPointF> line = places();
-  QPainter painter(this);
-  painter.setRenderHint(QPainter::Antialiasing);
-  const QColor color(theme().accent);
-  painter.setPen(QPen(color, 1.5));
-  painter.drawPolyline(line.data(), line.size());
-  for (int i = 0; i < line.size(); ++i) {
-    painter.setBrush(i == state_.cursor().iteration ? color : QColor(theme().panel));
-    painter.drawEllipse(line[i], kDot, kDot);
+/// Corrections of the shown run's iterations: a line with a dot per iteration, on a logarithmic
+/// scale; the shown iteration's dot is filled.
+class CorrectionLine final : public QWidget {
+ public:
+  explicit CorrectionLine(ViewState& state) : state_(state) {
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
+    setObjectName(QStringLiteral("correctionLine"));
+    setToolTip(RunBar::tr("Translation by each iteration, logarithmic"));
+    setAccessibleName(toolTip());
+    state_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this, [this] { update(); });
   }
-}
+
+  QSize sizeHint() const override { return {120, 32}; }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    const QVector<QPointF> line = places();
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QColor color(theme().accent);
+    painter.setPen(QPen(color, 1.5));
+    painter.drawPolyline(line.data(), line.size());
+    for (int i = 0; i < line.size(); ++i) {
+      painter.setBrush(i == state_.cursor().iteration ? color : QColor(theme().panel));
+      painter.drawEllipse(line[i], kDot, kDot);
+    }
+  }
+
+ private:
+  QVector<QPointF> places() const {
+    std::vector<double> heights;
+    if (state_.snapshot())
+      for (const auto& iteration : state_.snapshot()->iterations)
+        heights.push_back(std::log10(std::max(kLeastMove_m, iteration->correction_translation_m)));
+    if (heights.size() < 2) return {};
+    const auto [least, most] = std::minmax_element(heights.begin(), heights.end());
+    const double span = std::max(1e-9, *most - *least);
+    const QRectF area = QRectF(rect()).adjusted(4.0, 8.0, -4.0, -8.0);
+    QVector<QPointF> places;
+    for (std::size_t i = 0; i < heights.size(); ++i)
+      places << QPointF(area.left() + area.width() * static_cast<double>(i) /
+                                          static_cast<double>(heights.size() - 1),
+                        area.bottom() - area.height() * (heights[i] - *least) / span);
+    return places;
+  }
+
+  ViewState& state_;
+};
+
+}  // namespace
 
 RunBar::RunBar(ViewState& state, QWidget* parent)
     : QFrame(parent),

@@ -3,9 +3,6 @@
 
 #include <QFrame>
 #include <QList>
-#include <QPointF>
-#include <QVector>
-#include <QWidget>
 
 class QAction;
 class QHBoxLayout;
@@ -16,25 +13,6 @@ namespace boresight::ui {
 
 class RunScrubber;
 class ViewState;
-
-/// Corrections of the shown run's iterations: a line with a dot per iteration, on a logarithmic
-/// scale; the shown iteration's dot is filled.
-class CorrectionLine : public QWidget {
-  Q_OBJECT
-
- public:
-  explicit CorrectionLine(ViewState& state);
-
-  QSize sizeHint() const override { return {120, 32}; }
-
- protected:
-  void paintEvent(QPaintEvent* event) override;
-
- private:
-  QVector<QPointF> places() const;
-
-  ViewState& state_;
-};
 
 /// Bar below the canvas: buttons of the run, and the scrubber through its iterations and stages.
 class RunBar : public QFrame {
@@ -63,7 +41,7 @@ class RunBar : public QFrame {
   QList<QToolButton*> run_buttons_;
   RunScrubber* scrubber_ = nullptr;
   QLabel* correction_ = nullptr;
-  CorrectionLine* corrections_ = nullptr;
+  QWidget* corrections_ = nullptr;  ///< the same of all iterations, as a curve
   bool narrow_ = false;
 };
 

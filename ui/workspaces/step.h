@@ -43,10 +43,19 @@ enum class Step {
 };
 
 struct StepInfo {
-  const char* text;  ///< of the button
-  const char* help;
+  QString text;  ///< of the button
+  QString help;
   Icon icon;
 };
-const StepInfo& stepInfo(Step step);
+StepInfo stepInfo(Step step);
+
+/// Shows a step on a button or an action.
+template <class Target>
+void showStep(Target& target, Step step) {
+  const StepInfo info = stepInfo(step);
+  target.setText(info.text);
+  target.setToolTip(info.help);
+  target.setIcon(iconOf(info.icon));
+}
 
 }  // namespace boresight::ui

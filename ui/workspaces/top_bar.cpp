@@ -21,11 +21,9 @@ TopBar::TopBar(QMenuBar& menus, QWidget* parent)
   tabs_->setFocusPolicy(Qt::TabFocus);
   tabs_->setAccessibleName(tr("Workspaces"));
   for (int i = 0; i < kWorkspaceCount; ++i) {
-    const WorkspaceInfo& info = workspaceInfo(static_cast<Workspace>(i));
-    tabs_->addTab(QCoreApplication::translate("Workspace", info.name));
-    tabs_->setTabToolTip(i, tr("%1 (Ctrl+%2)")
-                                .arg(QCoreApplication::translate("Workspace", info.help))
-                                .arg(i + 1));
+    const auto workspace = static_cast<Workspace>(i);
+    tabs_->addTab(workspaceTitle(workspace));
+    tabs_->setTabToolTip(i, tr("%1 (Ctrl+%2)").arg(workspaceHelp(workspace)).arg(i + 1));
   }
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 0, 8, 0);

@@ -5,9 +5,9 @@
 
 #include <QDialog>
 
-#include "sessions/io/cameras/pose_file.h"
+#include "ui_uncertainty_dialog.h"
 
-class QDoubleSpinBox;
+#include "sessions/io/cameras/pose_file.h"
 
 namespace boresight::ui {
 
@@ -21,6 +21,7 @@ class UncertaintyDialog : public QDialog {
   sessions::DeclaredUncertainty uncertainty() const;
 
  private:
+  Ui::UncertaintyDialog ui_;
   sessions::DeclaredUncertainty stated_;
   std::array<QDoubleSpinBox*, 3> translation_mm_{};
   std::array<QDoubleSpinBox*, 3> rotation_deg_{};

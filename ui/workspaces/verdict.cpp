@@ -7,7 +7,7 @@
 #include <QCoreApplication>
 
 #include "sessions/record/onboard_review.h"
-#include "sessions/trace/run_headline.h"
+#include "sessions/trace/run_text.h"
 #include "ui/models/text.h"
 #include "ui/workspaces/remedies.h"
 
@@ -17,6 +17,15 @@ namespace {
 using sessions::ReviewState;
 
 QString tr(const char* text) { return QCoreApplication::translate("Verdict", text); }
+
+/// The tone, with its icon.
+void setTone(Verdict& verdict, VerdictTone tone) {
+  verdict.tone = tone;
+  verdict.icon = tone == VerdictTone::kGood      ? Icon::kCheck
+                 : tone == VerdictTone::kBad     ? Icon::kCross
+                 : tone == VerdictTone::kCaution ? Icon::kWarning
+                                                 : Icon::kInfo;
+}
 
 QString stageName(Stage stage) {
   const char* name = stage == Stage::kRender      ? "rendering"
@@ -33,8 +42,7 @@ QString stageName(Stage stage) {
 void toneOfPose(const Situation& situation, Verdict& verdict) {
   if (!situation.quality) return;  // being measured
   const bool good = situation.quality->holds() && situation.review.failed == 0;
-  verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
-  verdict.icon = good ? Icon::kCheck : Icon::kWarning;
+  setTone(verdict, good ? VerdictTone::kGood : VerdictTone::kCaution);
 }
 
 QString qualityText(const sessions::PoseQuality& quality) {
@@ -62,19 +70,16 @@ QString progressText(const sessions::LocalizationTrace* trace) {
 }
 
 Verdict ofFiles(const FilesSituation& files) {
-  Verdict verdict;
-  verdict.step = Step::kChooseFiles;
-  if (files.added == 0) {
-    verdict.head = tr("No case is open.");
-    verdict.sentence = tr("Add an image, a camera, a mesh and a seed, or open a session.");
-    return verdict;
-  }
-  verdict.head = tr("%1 of 4 files added").arg(files.added);
-  verdict.sentence = files.missing;
+  if (files.added == 0)
+    return {.head = tr("No case is open."),
+            .sentence = tr("Add an image, a camera, a mesh and a seed, or open a session."),
+            .step = Step::kChooseFiles};
+  Verdict verdict{.head = tr("%1 of 4 files added").arg(files.added),
+                  .sentence = files.missing,
+                  .step = Step::kChooseFiles};
   if (!files.next.isEmpty()) verdict.step_text = tr("Choose %1...").arg(files.next);
   if (!files.problem.isEmpty()) {
-    verdict.tone = VerdictTone::kBad;
-    verdict.icon = Icon::kCross;
+    setTone(verdict, VerdictTone::kBad);
     verdict.sentence = files.problem;
   } else if (files.next.isEmpty()) {
     verdict.step_text = tr("Make the case");
@@ -83,11 +88,9 @@ Verdict ofFiles(const FilesSituation& files) {
 }
 
 Verdict ofReading(const QString& case_id) {
-  Verdict verdict;
-  verdict.icon = Icon::kClock;
-  verdict.head = tr("Opening %1.").arg(case_id);
-  verdict.sentence = tr("Its files are being read.");
-  return verdict;
+  return {.icon = Icon::kClock,
+          .head = tr("Opening %1.").arg(case_id),
+          .sentence = tr("Its files are being read.")};
 }
 
 /// "p2, p5 and 3 others"
@@ -113,8 +116,7 @@ void addSuspects(const AnnotationSituation& annotation, Verdict& verdict) {
 
 void addAnnotatedPose(const AnnotationSituation& annotation, bool has_seed, Verdict& verdict) {
   const bool good = annotation.concern.isEmpty();
-  verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
-  verdict.icon = good ? Icon::kCheck : Icon::kWarning;
+  setTone(verdict, good ? VerdictTone::kGood : VerdictTone::kCaution);
   verdict.sentence = good       ? tr("The annotations give a pose.")
                      : has_seed ? annotation.concern
                                 : annotation.concern + tr(" The case has no seed yet.");
@@ -135,8 +137,7 @@ Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
     verdict.sentence = tr("Place or remove the %1 that are left; until then nothing is predicted.")
                            .arg(annotation.unplaced);
   } else if (!annotation.bad_pair.isEmpty() && annotation.suspects.size() < 2) {
-    verdict.tone = VerdictTone::kCaution;
-    verdict.icon = Icon::kWarning;
+    setTone(verdict, VerdictTone::kCaution);
     verdict.sentence = tr("%1 stands out by %2 sigma.")
                            .arg(annotation.bad_pair, numberText(annotation.bad_sigmas, 1));
     verdict.step = Step::kDisablePair;
@@ -151,17 +152,14 @@ Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
 }
 
 Verdict ofOnboard(const Situation& situation) {
+  if (!situation.comparison)
+    return {.head = tr("Not compared."),
+            .sentence = situation.not_compared,
+            .step = situation.can_repeat ? Step::kRepeatRecord : Step::kLoadRecord};
   Verdict verdict;
-  if (!situation.comparison) {
-    verdict.head = tr("Not compared.");
-    verdict.sentence = situation.not_compared;
-    verdict.step = situation.can_repeat ? Step::kRepeatRecord : Step::kLoadRecord;
-    return verdict;
-  }
   const sessions::RecordComparison& comparison = *situation.comparison;
   const bool good = comparison.verdict != sessions::RunVerdict::kDifferent;
-  verdict.tone = good ? VerdictTone::kGood : VerdictTone::kBad;
-  verdict.icon = good ? Icon::kCheck : Icon::kCross;
+  setTone(verdict, good ? VerdictTone::kGood : VerdictTone::kBad);
   verdict.head = comparison.verdict == sessions::RunVerdict::kEqual ? tr("Agrees bit for bit.")
                  : comparison.verdict == sessions::RunVerdict::kWithinLimits
                      ? tr("Agrees within limits.")
@@ -169,16 +167,6 @@ Verdict ofOnboard(const Situation& situation) {
   if (comparison.verdict != sessions::RunVerdict::kEqual)
     verdict.sentence = fromText(sessions::verdictText(comparison));
   verdict.step = comparison.first ? Step::kFirstDifference : Step::kNextCase;
-  return verdict;
-}
-
-Verdict ofRejection(const QString& decision) {
-  Verdict verdict;
-  verdict.tone = VerdictTone::kBad;
-  verdict.icon = Icon::kCross;
-  verdict.head = tr("Rejected in review");
-  verdict.sentence = decision;
-  verdict.step = Step::kNextCase;
   return verdict;
 }
 
@@ -199,12 +187,10 @@ Verdict ofValidation(const Situation& situation) {
   } else {
     verdict.head = tr("To be approved");
     verdict.step = situation.workspace == Workspace::kReview ? Step::kNextCase : Step::kReview;
-    verdict.tone = VerdictTone::kCaution;
-    verdict.icon = Icon::kWarning;
+    setTone(verdict, VerdictTone::kCaution);
   }
   if (review.outdated.isEmpty()) return verdict;
-  verdict.tone = VerdictTone::kCaution;
-  verdict.icon = Icon::kWarning;
+  setTone(verdict, VerdictTone::kCaution);
   verdict.head += tr("; outdated");
   verdict.others.insert(verdict.others.begin(), std::exchange(verdict.step, Step::kRunAgain));
   return verdict;
@@ -212,8 +198,12 @@ Verdict ofValidation(const Situation& situation) {
 
 /// A decision that holds.
 Verdict ofDecision(const Situation& situation) {
-  return situation.review.state == ReviewState::kRejected ? ofRejection(situation.review.decision)
-                                                          : ofValidation(situation);
+  if (situation.review.state != ReviewState::kRejected) return ofValidation(situation);
+  return {.tone = VerdictTone::kBad,
+          .icon = Icon::kCross,
+          .head = tr("Rejected in review"),
+          .sentence = situation.review.decision,
+          .step = Step::kNextCase};
 }
 
 bool decisionIsOfShownRun(const Situation& situation) {
@@ -223,18 +213,17 @@ bool decisionIsOfShownRun(const Situation& situation) {
 }
 
 Verdict ofConvergenceTest(const ReviewSituation& review) {
-  Verdict verdict;
-  verdict.icon = Icon::kRing;
-  verdict.head = tr("Convergence test running");
-  verdict.sentence = tr("No seed is done yet.");
+  Verdict verdict{.icon = Icon::kRing,
+                  .head = tr("Convergence test running"),
+                  .sentence = tr("No seed is done yet."),
+                  .step = Step::kStopTest,
+                  .plain = true};
   if (review.seeds_done > 0)
     verdict.sentence = tr("%1 seeds done; %2 end at this pose.")
                            .arg(review.seeds_done)
                            .arg(review.seeds_returned == review.seeds_done
                                     ? tr("all")
                                     : QString::number(review.seeds_returned));
-  verdict.step = Step::kStopTest;
-  verdict.plain = true;
   return verdict;
 }
 
@@ -250,10 +239,7 @@ std::optional<Verdict> ofReview(const Situation& situation) {
   if (!review.tested)
     open << tr("the convergence test has not run: a competing pose is not excluded");
   toneOfPose(situation, verdict);
-  if (verdict.tone == VerdictTone::kGood && !review.tested) {
-    verdict.tone = VerdictTone::kPlain;
-    verdict.icon = Icon::kInfo;
-  }
+  if (verdict.tone == VerdictTone::kGood && !review.tested) setTone(verdict, VerdictTone::kPlain);
   verdict.head = tr("Converged; not yet validated");
   verdict.sentence =
       open.isEmpty() ? tr("All checks passed.") : open.join(tr("; ")) + QLatin1Char('.');
@@ -267,9 +253,7 @@ std::optional<Verdict> ofReview(const Situation& situation) {
 Verdict ofRun(const Situation& situation) {
   const sessions::LocalizationTrace& trace = *situation.trace;
   const sessions::RunHeadline headline = sessions::runHeadline(trace);
-  Verdict verdict;
-  verdict.head = fromText(headline.head);
-  verdict.sentence = fromText(headline.sentence);
+  Verdict verdict{.head = fromText(headline.head), .sentence = fromText(headline.sentence)};
   if (trace.converged()) {
     if (situation.review.current) toneOfPose(situation, verdict);
     if (situation.quality) verdict.sentence += qualityText(*situation.quality);
@@ -279,8 +263,7 @@ Verdict ofRun(const Situation& situation) {
     verdict.step = Step::kReview;
     return verdict;
   }
-  verdict.tone = VerdictTone::kBad;
-  verdict.icon = Icon::kCross;
+  setTone(verdict, VerdictTone::kBad);
   const std::vector<Remedy> remedies = remediesFor(trace, situation.tried);
   if (const QString tried = triedText(remedies); !tried.isEmpty())
     verdict.sentence += tr(" Tried: %1.").arg(tried);
@@ -292,54 +275,40 @@ Verdict ofRun(const Situation& situation) {
 
 /// Under way, halted, ready, or of a case that cannot be run.
 std::optional<Verdict> ofProgress(const Situation& situation) {
-  Verdict verdict;
-  if (situation.run == RunState::kWorking || situation.in_batch) {
-    verdict.icon = Icon::kRing;
-    verdict.head = tr("Running.");
-    verdict.sentence =
-        progressText(situation.run == RunState::kWorking ? situation.trace.get() : nullptr);
-    verdict.step = Step::kStop;
-    verdict.plain = true;
-    return verdict;
+  const sessions::LocalizationTrace* trace = situation.trace.get();
+  if (situation.run == RunState::kWorking || situation.in_batch)
+    return Verdict{.icon = Icon::kRing,
+                   .head = tr("Running."),
+                   .sentence = progressText(situation.run == RunState::kWorking ? trace : nullptr),
+                   .step = Step::kStop,
+                   .plain = true};
+  if (situation.run == RunState::kHalted && trace && !trace->finished) {
+    const auto complete = trace->complete();
+    return Verdict{
+        .icon = Icon::kClock,
+        .head = complete > 0 ? tr("Paused after iteration %1.").arg(complete) : tr("Paused."),
+        .sentence = trace->last_under_way ? progressText(trace) : QString(),
+        .step = Step::kGoOn};
   }
-  if (situation.run == RunState::kHalted && situation.trace && !situation.trace->finished) {
-    const auto complete = situation.trace->complete();
-    verdict.head = complete > 0 ? tr("Paused after iteration %1.").arg(complete) : tr("Paused.");
-    if (situation.trace->last_under_way) verdict.sentence = progressText(situation.trace.get());
-    verdict.icon = Icon::kClock;
-    verdict.step = Step::kGoOn;
-    return verdict;
-  }
-  if (!situation.has_seed) {
-    verdict.head = tr("No seed yet.");
-    verdict.sentence = tr("Annotate four or more points: their pose becomes the seed.");
-    verdict.step = situation.annotation.has_pose ? Step::kSeedFromAnnotation : Step::kAnnotate;
-    return verdict;
-  }
-  if (!situation.input_problem.isEmpty()) {
-    verdict.tone = VerdictTone::kBad;
-    verdict.icon = Icon::kCross;
-    verdict.head = tr("Not ready to run.");
-    verdict.sentence = situation.input_problem;
-    verdict.step = Step::kChangeInput;
-    verdict.step_text = situation.input_step;
-    return verdict;
-  }
-  if (!situation.trace) {
-    verdict.head = tr("Ready to run.");
-    verdict.step = Step::kRun;
-    return verdict;
-  }
-  if (!situation.stale.isEmpty()) {
-    verdict.tone = VerdictTone::kCaution;
-    verdict.icon = Icon::kWarning;
-    verdict.head =
-        situation.trace->converged() ? tr("Converged; outdated.") : tr("Failed; outdated.");
-    verdict.sentence = situation.stale;
-    verdict.step = Step::kRunAgain;
-    return verdict;
-  }
-  return std::nullopt;
+  if (!situation.has_seed)
+    return Verdict{
+        .head = tr("No seed yet."),
+        .sentence = tr("Annotate four or more points: their pose becomes the seed."),
+        .step = situation.annotation.has_pose ? Step::kSeedFromAnnotation : Step::kAnnotate};
+  if (!situation.input_problem.isEmpty())
+    return Verdict{.tone = VerdictTone::kBad,
+                   .icon = Icon::kCross,
+                   .head = tr("Not ready to run."),
+                   .sentence = situation.input_problem,
+                   .step = Step::kChangeInput,
+                   .step_text = situation.input_step};
+  if (!trace) return Verdict{.head = tr("Ready to run."), .step = Step::kRun};
+  if (situation.stale.isEmpty()) return std::nullopt;
+  return Verdict{.tone = VerdictTone::kCaution,
+                 .icon = Icon::kWarning,
+                 .head = trace->converged() ? tr("Converged; outdated.") : tr("Failed; outdated."),
+                 .sentence = situation.stale,
+                 .step = Step::kRunAgain};
 }
 
 Verdict ofSituation(const Situation& situation) {
@@ -348,14 +317,12 @@ Verdict ofSituation(const Situation& situation) {
   if (situation.workspace == Workspace::kStart && situation.files.added > 0)
     return ofFiles(situation.files);
   if (!situation.has_case) {
-    Verdict verdict;
-    verdict.tone = VerdictTone::kBad;
-    verdict.icon = Icon::kCross;
-    verdict.head = tr("The case cannot be read.");
-    verdict.sentence =
-        situation.file_problem.isEmpty() ? situation.load_problem : situation.file_problem;
-    verdict.step = situation.file_problem.isEmpty() ? Step::kInputs : Step::kFixFiles;
-    return verdict;
+    const bool read = situation.file_problem.isEmpty();
+    return {.tone = VerdictTone::kBad,
+            .icon = Icon::kCross,
+            .head = tr("The case cannot be read."),
+            .sentence = read ? situation.load_problem : situation.file_problem,
+            .step = read ? Step::kInputs : Step::kFixFiles};
   }
   if (situation.workspace == Workspace::kAnnotate)
     return ofAnnotation(situation.annotation, situation.has_seed);

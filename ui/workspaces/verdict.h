@@ -25,12 +25,12 @@ enum class VerdictTone { kPlain, kGood, kBad, kCaution };
 struct Verdict {
   VerdictTone tone = VerdictTone::kPlain;
   Icon icon = Icon::kInfo;
-  QString head;
-  QString sentence;
+  QString head = {};
+  QString sentence = {};
   Step step = Step::kNone;
-  std::vector<Step> others;  ///< the first of them has a button also in a narrow window
-  QString step_text;         ///< replaces the step's own text, or empty
-  bool plain = false;        ///< the step only stops a job
+  std::vector<Step> others = {};  ///< the first of them has a button also in a narrow window
+  QString step_text = {};         ///< replaces the step's own text, or empty
+  bool plain = false;             ///< the step only stops a job
 };
 
 /// The files collected for a new case.

@@ -14,69 +14,41 @@ constexpr int kElideStep = 20;    // px by which a sentence is shortened until i
 constexpr int kPopoverText = 380;
 constexpr int kPopoverGap = 4;
 
-const char* toneName(VerdictTone tone) {
-  return tone == VerdictTone::kGood      ? "good"
-         : tone == VerdictTone::kBad     ? "bad"
-         : tone == VerdictTone::kCaution ? "caution"
-                                         : "plain";
-}
-
-QRgb Theme::*colorOf(VerdictTone tone) {
-  return tone == VerdictTone::kGood      ? &Theme::success_text
-         : tone == VerdictTone::kBad     ? &Theme::failure_text
-         : tone == VerdictTone::kCaution ? &Theme::warning_text
-                                         : &Theme::accent;
-}
-
-QString textOf(Step step) { return QCoreApplication::translate("Step", stepInfo(step).text); }
-QString helpOf(Step step) { return QCoreApplication::translate("Step", stepInfo(step).help); }
+struct ToneLook {
+  const char* name;  ///< in the style sheet
+  QRgb Theme::*color;
+};
+/// In the order of `VerdictTone`.
+constexpr ToneLook kLooks[] = {
+    {"plain", &Theme::accent},
+    {"good", &Theme::success_text},
+    {"bad", &Theme::failure_text},
+    {"caution", &Theme::warning_text},
+};
 
 }  // namespace
 
-VerdictBar::VerdictBar(QWidget* parent)
-    : QFrame(parent),
-      icon_(new IconLabel(kToolIcon)),
-      head_(named(new QLabel, "verdictHeadline")),
-      sentence_(named(new QLabel, "verdictSentence")),
-      badge_(named(new QPushButton, "warningBadge")),
-      others_(new QHBoxLayout),
-      more_(named(new QToolButton, "verdictMore", tr("What else may help"))),
-      more_menu_(new QMenu(this)),
-      action_(named(new QPushButton, "verdictAction")) {
-  setObjectName(QStringLiteral("verdictBar"));
+VerdictBar::VerdictBar(QWidget* parent) : QFrame(parent), more_menu_(new QMenu(this)) {
+  ui_.setupUi(this);
   setFixedHeight(kVerdictHeight);
-  sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  sentence_->setTextFormat(Qt::PlainText);
-  sentence_->setWordWrap(true);
-  head_->setTextFormat(Qt::PlainText);
-  badge_->setIcon(iconOf(Icon::kWarning, &Theme::warning_text));
-  more_->setText(QStringLiteral("…"));
-  more_->setPopupMode(QToolButton::InstantPopup);
-  more_->setMenu(more_menu_);
-  more_->setAccessibleName(tr("More actions"));
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(12, 4, 8, 4);
-  row->setSpacing(8);
-  for (QWidget* each : {static_cast<QWidget*>(icon_), static_cast<QWidget*>(head_)})
-    row->addWidget(each);
-  row->addWidget(sentence_, 1);
-  row->addWidget(badge_);
-  row->addLayout(others_);
-  row->addWidget(more_);
-  row->addWidget(action_);
-  for (QWidget* each : std::initializer_list<QWidget*>{badge_, more_, action_})
+  ui_.verdictIcon->setFixedSize(kToolIcon, kToolIcon);
+  ui_.warningBadge->setIcon(iconOf(Icon::kWarning, &Theme::warning_text));
+  ui_.verdictMore->setMenu(more_menu_);
+  for (QWidget* each :
+       std::initializer_list<QWidget*>{ui_.warningBadge, ui_.verdictMore, ui_.verdictAction})
     each->setFixedHeight(kButtonHeight);
-  for (QPushButton* each : {badge_, action_}) each->setIconSize(kButtonIcon);
-  connect(badge_, &QPushButton::clicked, this, &VerdictBar::showWarnings);
-  connect(action_, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(verdict_.step); });
-  sentence_->installEventFilter(this);
+  for (QPushButton* each : {ui_.warningBadge, ui_.verdictAction}) each->setIconSize(kButtonIcon);
+  connect(ui_.warningBadge, &QPushButton::clicked, this, &VerdictBar::showWarnings);
+  connect(ui_.verdictAction, &QPushButton::clicked, this,
+          [this] { Q_EMIT stepRequested(verdict_.step); });
+  ui_.verdictSentence->installEventFilter(this);
   setWarnings({});
   setVerdict({});
 }
 
 /// Buttons that come and go change the room of the sentence, and not the bar's size.
 bool VerdictBar::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == sentence_ && event->type() == QEvent::Resize)
+  if (watched == ui_.verdictSentence && event->type() == QEvent::Resize)
     QMetaObject::invokeMethod(
         this, [this] { elide(); }, Qt::QueuedConnection);
   return QFrame::eventFilter(watched, event);
@@ -84,21 +56,19 @@ bool VerdictBar::eventFilter(QObject* watched, QEvent* event) {
 
 void VerdictBar::setVerdict(const Verdict& verdict) {
   verdict_ = verdict;
-  setProperty("tone", QLatin1String(toneName(verdict.tone)));
-  icon_->setIcon(verdict.icon, colorOf(verdict.tone));
-  head_->setText(verdict.head);
-  action_->setVisible(verdict.step != Step::kNone);
-  action_->setText(verdict.step_text.isEmpty() ? textOf(verdict.step) : verdict.step_text);
-  action_->setToolTip(tr("%1 (Ctrl+Enter)").arg(helpOf(verdict.step)));
-  action_->setProperty("primary", !verdict.plain);
-  action_->setIcon(
-      iconOf(stepInfo(verdict.step).icon, verdict.plain ? &Theme::text : &Theme::on_accent));
+  const ToneLook& look = kLooks[static_cast<std::size_t>(verdict.tone)];
+  setProperty("tone", QLatin1String(look.name));
+  const StepInfo step = stepInfo(verdict.step);
+  ui_.verdictIcon->setIcon(verdict.icon, look.color);
+  ui_.verdictHeadline->setText(verdict.head);
+  ui_.verdictAction->setVisible(verdict.step != Step::kNone);
+  ui_.verdictAction->setText(verdict.step_text.isEmpty() ? step.text : verdict.step_text);
+  ui_.verdictAction->setToolTip(tr("%1 (Ctrl+Enter)").arg(step.help));
+  ui_.verdictAction->setProperty("primary", !verdict.plain);
+  ui_.verdictAction->setIcon(iconOf(step.icon, verdict.plain ? &Theme::text : &Theme::on_accent));
   setAccessibleName(text());
   showOthers();
-  for (QWidget* each : std::initializer_list<QWidget*>{this, head_, action_}) {
-    each->style()->unpolish(each);
-    each->style()->polish(each);
-  }
+  restyle({this, ui_.verdictHeadline, ui_.verdictAction});
   elide();
 }
 
@@ -108,37 +78,34 @@ QString VerdictBar::text() const {
 }
 
 void VerdictBar::showOthers() {
-  while (QLayoutItem* item = others_->takeAt(0)) {
-    delete item->widget();
-    delete item;
-  }
+  clearLayout(*ui_.others);
   more_menu_->clear();
   const int shown = width() < kWideWindow ? kOthersNarrow : kOthersWide;
   for (std::size_t i = 0; i < verdict_.others.size(); ++i) {
     const Step step = verdict_.others[i];
     const auto ask = [this, step] { Q_EMIT stepRequested(step); };
     if (static_cast<int>(i) < shown) {
-      auto* button = new QPushButton(iconOf(stepInfo(step).icon), textOf(step));
-      button->setToolTip(helpOf(step));
+      auto* button = new QPushButton;
+      showStep(*button, step);
       button->setFixedHeight(kButtonHeight);
       button->setIconSize(kButtonIcon);
       connect(button, &QPushButton::clicked, this, ask, Qt::QueuedConnection);
-      others_->addWidget(button);
+      ui_.others->addWidget(button);
     } else {
-      QAction* each = more_menu_->addAction(iconOf(stepInfo(step).icon), textOf(step));
-      each->setToolTip(helpOf(step));
+      QAction* each = more_menu_->addAction(QString());
+      showStep(*each, step);
       connect(each, &QAction::triggered, this, ask, Qt::QueuedConnection);
     }
   }
-  more_->setVisible(!more_menu_->isEmpty());
+  ui_.verdictMore->setVisible(!more_menu_->isEmpty());
 }
 
 void VerdictBar::setWarnings(const QStringList& sentences) {
   warnings_ = sentences;
-  badge_->setVisible(!sentences.isEmpty());
-  badge_->setText(sentences.size() == 1 ? tr("1 warning")
-                                        : tr("%1 warnings").arg(sentences.size()));
-  badge_->setToolTip(sentences.join(QLatin1Char('\n')));
+  ui_.warningBadge->setVisible(!sentences.isEmpty());
+  ui_.warningBadge->setText(sentences.size() == 1 ? tr("1 warning")
+                                                  : tr("%1 warnings").arg(sentences.size()));
+  ui_.warningBadge->setToolTip(sentences.join(QLatin1Char('\n')));
   elide();
 }
 
@@ -156,31 +123,31 @@ void VerdictBar::showWarnings() {
     label->setFixedWidth(kPopoverText);
     column->addWidget(label);
   }
-  auto* inputs = named(new QPushButton(iconOf(Icon::kInfo), textOf(Step::kInputs)), "showInputs",
-                       helpOf(Step::kInputs));
+  auto* inputs = named(new QPushButton, "showInputs");
+  showStep(*inputs, Step::kInputs);
   column->addWidget(inputs, 0, Qt::AlignRight);
   connect(inputs, &QPushButton::clicked, popover, &QWidget::close);
   connect(inputs, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(Step::kInputs); });
   popover->adjustSize();
-  popover->move(badge_->mapToGlobal(
-      QPoint(badge_->width() - popover->width(), badge_->height() + kPopoverGap)));
+  popover->move(ui_.warningBadge->mapToGlobal(QPoint(ui_.warningBadge->width() - popover->width(),
+                                                     ui_.warningBadge->height() + kPopoverGap)));
   popover->show();
 }
 
 /// The bar has room for two lines; a longer sentence is whole in the tool tip.
 void VerdictBar::elide() {
   layout()->activate();
-  const QFontMetrics metrics = sentence_->fontMetrics();
+  const QFontMetrics metrics = ui_.verdictSentence->fontMetrics();
   const auto fits = [&](const QString& text) {
-    const QRect line(0, 0, sentence_->width(), 1);
+    const QRect line(0, 0, ui_.verdictSentence->width(), 1);
     const int height = metrics.boundingRect(line, Qt::TextWordWrap, text).height();
     return 2 * height < 5 * metrics.lineSpacing();  // two lines, however they are rounded
   };
   QString shown = verdict_.sentence;
-  for (int width = 2 * sentence_->width(); !fits(shown) && width > 0; width -= kElideStep)
+  for (int width = 2 * ui_.verdictSentence->width(); !fits(shown) && width > 0; width -= kElideStep)
     shown = metrics.elidedText(verdict_.sentence, Qt::ElideRight, width);
-  sentence_->setText(shown);
-  sentence_->setToolTip(shown == verdict_.sentence ? QString() : verdict_.sentence);
+  ui_.verdictSentence->setText(shown);
+  ui_.verdictSentence->setToolTip(shown == verdict_.sentence ? QString() : verdict_.sentence);
 }
 
 void VerdictBar::resizeEvent(QResizeEvent* event) {

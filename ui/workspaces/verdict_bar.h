@@ -4,14 +4,11 @@
 #include <QFrame>
 #include <QStringList>
 
+#include "ui_verdict_bar.h"
+
 #include "ui/workspaces/verdict.h"
 
-class QHBoxLayout;
-class IconLabel;
-class QLabel;
 class QMenu;
-class QPushButton;
-class QToolButton;
 
 namespace boresight::ui {
 
@@ -30,7 +27,7 @@ class VerdictBar : public QFrame {
   /// Head and sentence, for screen readers.
   QString text() const;
   /// The action's button; hidden without one.
-  QPushButton& action() { return *action_; }
+  QPushButton& action() { return *ui_.verdictAction; }
 
  Q_SIGNALS:
   void stepRequested(boresight::ui::Step step);
@@ -46,14 +43,8 @@ class VerdictBar : public QFrame {
 
   Verdict verdict_;
   QStringList warnings_;
-  IconLabel* icon_ = nullptr;
-  QLabel* head_ = nullptr;
-  QLabel* sentence_ = nullptr;
-  QPushButton* badge_ = nullptr;
-  QHBoxLayout* others_ = nullptr;
-  QToolButton* more_ = nullptr;
-  QMenu* more_menu_ = nullptr;
-  QPushButton* action_ = nullptr;
+  Ui::VerdictBar ui_;
+  QMenu* more_menu_;
 };
 
 }  // namespace boresight::ui

@@ -2,6 +2,7 @@
 #include "ui/workspaces/workspace.h"
 
 #include <array>
+#include <utility>
 
 #include <QCoreApplication>
 
@@ -17,17 +18,12 @@ constexpr int kTableDrawer = 160;  // height
 constexpr int kIterationsTable = 150;
 constexpr int kAnnotationTable = 220;
 
-std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
-  return {{
+const std::array<WorkspaceInfo, kWorkspaceCount>& infos() {
+  static const std::array<WorkspaceInfo, kWorkspaceCount> kInfos = {{
       {QT_TRANSLATE_NOOP("Workspace", "Start"),
-       QT_TRANSLATE_NOOP("Workspace", "Create a case from files, open a session or an example"),
-       false,
-       {},
-       {},
-       {}},
+       QT_TRANSLATE_NOOP("Workspace", "Create a case from files, open a session or an example")},
       {QT_TRANSLATE_NOOP("Workspace", "Run"),
        QT_TRANSLATE_NOOP("Workspace", "Run the case and watch how the pose is found"),
-       true,
        {{"scene", kRight, kWide.run_side, nullptr, 3},
         {"closeUps", kRight, kWide.run_side, nullptr, 3},
         {"result", kRight, kWide.run_side, nullptr, 3}},
@@ -35,7 +31,6 @@ std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
        {"scene", "closeUps", "result"}},
       {QT_TRANSLATE_NOOP("Workspace", "Diagnose"),
        QT_TRANSLATE_NOOP("Workspace", "Find the cause of a failed run, and a remedy"),
-       true,
        {{"inspector", kRight, kWide.diagnose_side},
         {"remedies", kRight, kWide.diagnose_side, "inspector"},
         {"hypotheses", kRight, kWide.diagnose_side, "inspector"},
@@ -46,28 +41,21 @@ std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
        true},
       {QT_TRANSLATE_NOOP("Workspace", "Annotate"),
        QT_TRANSLATE_NOOP("Workspace", "Mark points and lines in the image and on the station"),
-       true,
        {{"scene", kRight, 760}, {"annotation", kBottom, kAnnotationTable}},
        {{"scene", kRight, 520}, {"annotation", kBottom, kTableDrawer}},
        {"scene", "annotation", "mask", "levels"},
        true},
       {QT_TRANSLATE_NOOP("Workspace", "Review"),
        QT_TRANSLATE_NOOP("Workspace", "Check the pose, then validate or reject it"),
-       true,
        {{"queue", kLeft, kWide.queue_width}, {"review", kRight, kWide.review_side}},
        {{"review", kRight, kNarrow.review_side}},
        {"review", "queue"}},
       {QT_TRANSLATE_NOOP("Workspace", "Onboard"),
        QT_TRANSLATE_NOOP("Workspace", "Compare the onboard run with a ground run"),
-       true,
        {{"onboard", kBottom, 260}},
        {{"onboard", kBottom, 200}},
        {"onboard"}},
   }};
-}
-
-const std::array<WorkspaceInfo, kWorkspaceCount>& infos() {
-  static const std::array<WorkspaceInfo, kWorkspaceCount> kInfos = makeInfos();
   return kInfos;
 }
 
@@ -75,6 +63,14 @@ const std::array<WorkspaceInfo, kWorkspaceCount>& infos() {
 
 const WorkspaceInfo& workspaceInfo(Workspace workspace) {
   return infos()[static_cast<std::size_t>(workspace)];
+}
+
+QString workspaceTitle(Workspace workspace) {
+  return QCoreApplication::translate("Workspace", workspaceInfo(workspace).name);
+}
+
+QString workspaceHelp(Workspace workspace) {
+  return QCoreApplication::translate("Workspace", workspaceInfo(workspace).help);
 }
 
 std::optional<Workspace> workspaceNamed(const QString& name) {
@@ -87,18 +83,13 @@ std::optional<Workspace> workspaceNamed(const QString& name) {
 }
 
 std::optional<Workspace> homeOf(const QString& dock) {
-  struct Home {
-    const char* dock;
-    Workspace workspace;
+  static constexpr std::pair<const char*, Workspace> kHomes[] = {
+      {"inspector", Workspace::kDiagnose},  {"hypotheses", Workspace::kDiagnose},
+      {"annotation", Workspace::kAnnotate}, {"review", Workspace::kReview},
+      {"queue", Workspace::kReview},        {"onboard", Workspace::kOnboard},
   };
-  static constexpr Home kHomes[] = {
-      {"annotation", Workspace::kAnnotate},
-      {"review", Workspace::kReview},
-      {"queue", Workspace::kReview},
-      {"onboard", Workspace::kOnboard},
-  };
-  for (const Home& home : kHomes)
-    if (dock == QLatin1String(home.dock)) return home.workspace;
+  for (const auto& [name, home] : kHomes)
+    if (dock == QLatin1String(name)) return home;
   return std::nullopt;
 }
 

@@ -17,25 +17,27 @@ inline constexpr int kWorkspaceCount = 6;
 struct PlacedDock {
   const char* dock;  ///< object name
   Qt::DockWidgetArea area;
-  int size;                       ///< px: width at the sides, height at the bottom
-  const char* behind = nullptr;   ///< name of a dock whose tab it shares, or none
-  int share = 1;                  ///< of the height among the docks of a side
+  int size;                      ///< px: width at the sides, height at the bottom
+  const char* behind = nullptr;  ///< name of a dock whose tab it shares, or none
+  int share = 1;                 ///< of the height among the docks of a side
 };
 
 struct WorkspaceInfo {
   const char* name;
   const char* help;
-  bool has_canvas;
-  std::vector<PlacedDock> wide;    ///< from kWideWindow pixels on
-  std::vector<PlacedDock> narrow;  ///< below
+  std::vector<PlacedDock> wide = {};    ///< from kWideWindow pixels on
+  std::vector<PlacedDock> narrow = {};  ///< below
   /// Docks of which a narrow window shows only one at a time.
-  std::vector<const char*> drawers;
+  std::vector<const char*> drawers = {};
   /// Whether buttons below the canvas open the drawers; otherwise the side pane's button does, and
   /// the image has the full height.
   bool handles = false;
 };
 
 const WorkspaceInfo& workspaceInfo(Workspace workspace);
+/// Its name and help, translated.
+QString workspaceTitle(Workspace workspace);
+QString workspaceHelp(Workspace workspace);
 
 /// The workspace of this name, ignoring letter case.
 std::optional<Workspace> workspaceNamed(const QString& name);

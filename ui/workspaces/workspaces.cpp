@@ -88,7 +88,7 @@ void Workspaces::addAsTab(QDockWidget* added) {
   if (!narrow_ && of_workspace == places.end() && !added->isFloating() &&
       body_.dockWidgetArea(added) == Qt::RightDockWidgetArea)
     for (auto each = places.rbegin(); each != places.rend(); ++each) {
-      QDockWidget* there = dock(QLatin1String(each->dock));
+      QDockWidget* there = dock(*each);
       if (each->area != Qt::RightDockWidgetArea || !there || there->isHidden()) continue;
       body_.tabifyDockWidget(there, added);
       break;
@@ -127,7 +127,7 @@ void Workspaces::place(const std::vector<PlacedDock>& places) {
     body_.removeDockWidget(each);
   }
   for (const PlacedDock& each : places) {
-    QDockWidget* placed = dock(QLatin1String(each.dock));
+    QDockWidget* placed = dock(each);
     QDockWidget* behind = each.behind ? dock(QLatin1String(each.behind)) : nullptr;
     if (!placed) continue;
     if (behind)
@@ -161,7 +161,7 @@ void Workspaces::giveSizes(const std::vector<PlacedDock>& places) {
   for (const PlacedDock& each : places)
     if (each.area == Qt::RightDockWidgetArea && !each.behind) shares += each.share;
   for (const PlacedDock& each : places) {
-    QDockWidget* placed = dock(QLatin1String(each.dock));
+    QDockWidget* placed = dock(each);
     if (!placed || each.behind) continue;
     if (each.area == Qt::BottomDockWidgetArea) {
       body_.resizeDocks({placed}, {each.size}, Qt::Vertical);
@@ -181,8 +181,7 @@ void Workspaces::giveSizes(const std::vector<PlacedDock>& places) {
 /// In a narrow window the image keeps its room: a drawer that opens closes the others.
 void Workspaces::keepOneDrawer(QDockWidget* opened) {
   if (placing_ || !shown_ || !narrow_ || opened->isFloating()) return;
-  const std::vector<const char*>& drawers = workspaceInfo(current_).drawers;
-  const auto is_drawer = [&drawers](const QDockWidget* each) {
+  const auto is_drawer = [&drawers = workspaceInfo(current_).drawers](const QDockWidget* each) {
     return std::ranges::any_of(
         drawers, [each](const char* name) { return each->objectName() == QLatin1String(name); });
   };
@@ -194,36 +193,34 @@ void Workspaces::keepOneDrawer(QDockWidget* opened) {
 }
 
 void Workspaces::toggleArea(Qt::DockWidgetArea area) {
-  const WorkspaceInfo& info = workspaceInfo(current_);
-  QList<QDockWidget*> here;
+  bool any_shown = false;
   for (QDockWidget* each : docks_)
-    if (body_.dockWidgetArea(each) == area && !each->isFloating() && !each->isHidden())
-      here << each;
-  if (!here.isEmpty()) {
-    for (QDockWidget* each : here) each->hide();
-    return;
-  }
-  for (const PlacedDock& each : narrow_ && !info.narrow.empty() ? info.narrow : info.wide)
+    if (body_.dockWidgetArea(each) == area && !each->isFloating() && !each->isHidden()) {
+      any_shown = true;
+      each->hide();
+    }
+  if (any_shown) return;
+  const WorkspaceInfo& info = workspaceInfo(current_);
+  const auto& places = narrow_ && !info.narrow.empty() ? info.narrow : info.wide;
+  for (const PlacedDock& each : places)
     if (each.area == area)
-      if (QDockWidget* placed = dock(QLatin1String(each.dock))) placed->show();
-  giveSizes(narrow_ && !info.narrow.empty() ? info.narrow : info.wide);
+      if (QDockWidget* placed = dock(each)) placed->show();
+  giveSizes(places);
 }
+
+QByteArray& Workspaces::state() { return states_[keyOf(current_, narrow_)]; }
 
 void Workspaces::save(QSettings& settings) {
   state() = body_.saveState(kStateVersion);
-  for (int i = 0; i < kWorkspaceCount; ++i)
-    for (const bool narrow : {false, true}) {
-      const auto workspace = static_cast<Workspace>(i);
-      const QByteArray& kept = stateOf(workspace, narrow);
-      if (!kept.isEmpty()) settings.setValue(keyOf(workspace, narrow), kept);
-    }
+  for (const auto& [key, kept] : states_)
+    if (!kept.isEmpty()) settings.setValue(key, kept);
 }
 
 void Workspaces::restore(const QSettings& settings) {
   for (int i = 0; i < kWorkspaceCount; ++i)
     for (const bool narrow : {false, true}) {
-      const auto workspace = static_cast<Workspace>(i);
-      stateOf(workspace, narrow) = settings.value(keyOf(workspace, narrow)).toByteArray();
+      const QString key = keyOf(static_cast<Workspace>(i), narrow);
+      states_[key] = settings.value(key).toByteArray();
     }
 }
 

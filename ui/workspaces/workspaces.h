@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <map>
 #include <vector>
 
 #include <QByteArray>
@@ -51,16 +51,14 @@ class Workspaces : public QObject {
   void keepOneDrawer(QDockWidget* opened);
   void bringUp();
   void keepSize(const QSize& size, int tries = 20);
-  QByteArray& stateOf(Workspace workspace, bool narrow) {
-    return states_[narrow ? 1 : 0][static_cast<std::size_t>(workspace)];
-  }
-  QByteArray& state() { return stateOf(current_, narrow_); }
+  QByteArray& state();
+  QDockWidget* dock(const PlacedDock& placed) const { return dock(QLatin1String(placed.dock)); }
 
   QMainWindow& body_;
   std::vector<QDockWidget*> docks_;
   Workspace current_ = Workspace::kStart;
   bool narrow_ = true;
-  std::array<std::array<QByteArray, kWorkspaceCount>, 2> states_;  ///< empty: default
+  std::map<QString, QByteArray> states_;  ///< by the key in the settings; empty: default
   bool placing_ = false;
   bool shown_ = false;
 };

@@ -94,27 +94,26 @@ class Entries {
 void readModel(const Entries& entries, CahvModel& cahv) {
   const std::string& text = entries.text("Model");
   const std::string name(trimmed(std::string_view(text).substr(0, text.find('='))));
-  const auto fail = [&]() {
+  std::optional<double> parameter = cahv.parameter;
+  if (name == "CAHV") {
+    cahv.model = CameraModel::kCahv;
+  } else if (name == "CAHVOR") {
+    cahv.model = CameraModel::kCahvor;
+  } else if (name == "CAHVORE1" || name == "CAHVORE2") {
+    cahv.model = CameraModel::kCahvore;
+    cahv.type = name.back() - '0';
+  } else {
+    constexpr std::string_view kGeneral = "CAHVORE3,";
+    cahv.model = CameraModel::kCahvore;
+    cahv.type = 3;
+    parameter = name.starts_with(kGeneral)
+                    ? numberIn<double>(trimmed(std::string_view(name).substr(kGeneral.size())))
+                    : std::nullopt;
+  }
+  if (!parameter)
     throw InputError(
         entries.file(), "Model",
         "'" + oneLine(name) + "' is not known (CAHV, CAHVOR, CAHVORE1, CAHVORE2 or CAHVORE3,P)");
-  };
-  if (name == "CAHV" || name == "CAHVOR") {
-    cahv.model = name == "CAHV" ? CameraModel::kCahv : CameraModel::kCahvor;
-    return;
-  }
-  if (name.rfind("CAHVORE", 0) != 0 || name.size() < 8) fail();
-  cahv.model = CameraModel::kCahvore;
-  cahv.type = name[7] - '0';
-  if (cahv.type < 1 || cahv.type > 3) fail();
-  const std::string_view rest = std::string_view(name).substr(8);
-  if (cahv.type != 3) {
-    if (!rest.empty()) fail();
-    return;
-  }
-  if (rest.size() < 2 || rest[0] != ',') fail();
-  const auto parameter = numberIn<double>(trimmed(rest.substr(1)));
-  if (!parameter) fail();
   cahv.parameter = *parameter;
 }
 
@@ -126,19 +125,10 @@ std::string modelText(const CahvModel& cahv) {
   return "CAHVORE3," + numberText(cahv.parameter) + " = general";
 }
 
-std::string vectorLine(const char* key, const Eigen::Vector3d& vector) {
-  return std::string(key) + " = " + numberText(vector.x()) + " " + numberText(vector.y()) + " " +
-         numberText(vector.z()) + "\n";
-}
-
 std::string squareText(const char* key, const Eigen::MatrixXd& matrix) {
   if (matrix.size() == 0) return "";
   std::string text = std::string("\n") + key + " =\n";
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-      text += (j > 0 ? " " : "") + numberText(matrix(i, j));
-    text += "\n";
-  }
+  for (const auto& row : matrix.rowwise()) text += numbersText(row) + "\n";
   return text;
 }
 
@@ -157,8 +147,8 @@ std::string internalText(const CahvModel& cahv) {
 }  // namespace
 
 bool isCahvorFile(const std::filesystem::path& file) {
-  const std::string extension = lowerCase(file.extension().string());
-  return extension == ".cahv" || extension == ".cahvor" || extension == ".cahvore";
+  const std::string extension = file.extension().string();
+  return !extension.empty() && cahvModelOf(extension.substr(1)).has_value();
 }
 
 CahvorFile readCahvorFile(const std::filesystem::path& file) {
@@ -167,11 +157,10 @@ CahvorFile readCahvorFile(const std::filesystem::path& file) {
   CahvModel& cahv = read.cahv;
   readModel(entries, cahv);
   const std::vector<double> size = entries.numbers("Dimensions", 2);
-  for (const double side : size)
-    if (!(side >= 1.0 && side <= kMaxImageSide_px) || side != std::floor(side))
-      throw InputError(
-          file, "Dimensions",
-          "width and height must be whole numbers, 1 to " + std::to_string(kMaxImageSide_px));
+  if (!isImageSide(size[0]) || !isImageSide(size[1]))
+    throw InputError(
+        file, "Dimensions",
+        "width and height must be whole numbers, 1 to " + std::to_string(kMaxImageSide_px));
   read.width = static_cast<int>(size[0]);
   read.height = static_cast<int>(size[1]);
   forVectors(
@@ -181,27 +170,19 @@ CahvorFile readCahvorFile(const std::filesystem::path& file) {
   return read;
 }
 
-namespace {
-
-/// Nothing where the file's covariance over Hs Hc Vs Vc Theta says nothing.
-std::optional<CalibrationSigma> calibrationSigmaOf(const CahvorFile& file, const Camera& camera) {
-  if (file.internal_covariance.isZero(0.0)) return std::nullopt;
-  const Eigen::VectorXd sigma = file.internal_covariance.diagonal().cwiseSqrt();
-  return CalibrationSigma{
-      std::min(std::max(sigma(0) / camera.fx, sigma(2) / camera.fy), kMaxFocalSigma),
-      std::min(std::max(sigma(1), sigma(3)), kMaxPrincipalPointSigma_px)};
-}
-
-}  // namespace
-
 CameraFile readCahvorCamera(const std::filesystem::path& file) {
   const CahvorFile read = readCahvorFile(file);
   std::optional<CameraFile> camera = cameraOfVectors(read.cahv, read.width, read.height);
   if (!camera) throw InputError(file, kVectorsCannotProject);
-  camera->calibration_sigma = calibrationSigmaOf(read, camera->camera);
+  if (!read.internal_covariance.isZero(0.0)) {
+    const Eigen::VectorXd sigma = read.internal_covariance.diagonal().cwiseSqrt();
+    const double focal = std::max(sigma(0) / camera->camera.fx, sigma(2) / camera->camera.fy);
+    camera->calibration_sigma =
+        CalibrationSigma{std::min(focal, kMaxFocalSigma),
+                         std::min(std::max(sigma(1), sigma(3)), kMaxPrincipalPointSigma_px)};
+  }
   if (!read.covariance.isZero(0.0))
-    camera->covariance =
-        inFrame({read.covariance}, camera->reference->camera_from_reference);
+    camera->covariance = inFrame({read.covariance}, camera->reference->camera_from_reference);
   return *camera;
 }
 
@@ -213,7 +194,7 @@ void writeCahvorFile(const std::filesystem::path& file, const CahvorFile& cahvor
       modelText(cahv) + "\n\nDimensions = " + std::to_string(cahvor.width) + " " +
       std::to_string(cahvor.height) + "\n\n";
   forVectors(cahv, [&text](const char* key, const Eigen::Vector3d& vector) {
-    text += vectorLine(key, vector);
+    text += std::string(key) + " = " + numbersText(vector) + "\n";
   });
   text += squareText("S", cahvor.covariance) + internalText(cahv) +
           squareText("S internal", cahvor.internal_covariance);

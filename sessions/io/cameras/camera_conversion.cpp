@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -14,8 +14,10 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <unsupported/Eigen/NumericalDiff>
 
+#include "core/base/math.h"
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/json/json_writer.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -26,7 +28,6 @@ constexpr int kMostEvaluations = 4000;  ///< of all residuals, in one fit
 constexpr double kFar_m = 1e6;          ///< 1 um of pupil is 1e-9 px there
 constexpr double kWithoutLimit = 1e3;
 constexpr std::size_t kFewestSights = 16;
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 /// A unit of a coefficient weighs as much as one residual of this size: numerator and denominator
 /// of the rational model could else grow together without end, and their zeros meet the image.
 constexpr double kRidge_px = 0.05;
@@ -48,16 +49,17 @@ struct Sight {
   double tangent() const { return point_m.head<2>().norm() / point_m.z(); }
 };
 
-/// The point of a pixel's ray at a distance from the camera's centre; false without a ray.
-bool sightAt(const Camera& camera, const Eigen::Vector2d& pixel, double distance_m, Sight& sight) {
+/// The point of a pixel's ray at a distance from the camera's centre; empty without a ray.
+std::optional<Sight> sightAt(const Camera& camera, const Eigen::Vector2d& pixel,
+                             double distance_m) {
   Ray ray;
-  if (!unprojectRay(camera, pixel, ray)) return false;
+  if (!unprojectRay(camera, pixel, ray)) return std::nullopt;
   const Eigen::Vector3d direction = ray.direction.normalized();
   const double along = ray.origin_m.dot(direction);
   const double square = along * along - ray.origin_m.squaredNorm() + distance_m * distance_m;
-  if (square <= 0.0) return false;
-  sight = {pixel, ray.origin_m + (std::sqrt(square) - along) * direction};
-  return sight.point_m.z() > 0.0;
+  if (square <= 0.0) return std::nullopt;
+  const Sight sight{pixel, ray.origin_m + (std::sqrt(square) - along) * direction};
+  return sight.point_m.z() > 0.0 ? std::optional(sight) : std::nullopt;
 }
 
 std::vector<double> placesAlong(int side, int steps) {
@@ -74,6 +76,14 @@ std::vector<Eigen::Vector2d> pixelGrid(const Camera& camera, int steps) {
   for (const double y : placesAlong(camera.height, steps))
     for (const double x : placesAlong(camera.width, steps)) pixels.emplace_back(x, y);
   return pixels;
+}
+
+/// Points that a grid of pixels sees at a distance.
+std::vector<Sight> sightsOf(const Camera& given, double distance_m) {
+  std::vector<Sight> sights;
+  for (const Eigen::Vector2d& pixel : pixelGrid(given, kFitSteps))
+    if (const auto sight = sightAt(given, pixel, distance_m)) sights.push_back(*sight);
+  return sights;
 }
 
 /// The grid and every pixel of the border, where errors are largest.
@@ -115,7 +125,7 @@ struct FitResiduals {
 
   int operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals) const {
     Camera camera = cameraOf(*start, parameters);
-    // The formula alone counts here; whether it folds back is asked of the camera that comes out.
+    // Without the limit of the valid field: prepareCamera checks the fitted camera.
     camera.valid_radius = kWithoutLimit;
     for (std::size_t i = 0; i < sights->size(); ++i) {
       Eigen::Vector2d pixel;
@@ -130,18 +140,6 @@ struct FitResiduals {
     return 0;
   }
 };
-
-Camera startCamera(const Camera& given, CameraModel model) {
-  Camera camera;
-  camera.model = model;
-  camera.width = given.width;
-  camera.height = given.height;
-  camera.fx = given.fx;
-  camera.fy = given.fy;
-  camera.cx = given.cx;
-  camera.cy = given.cy;
-  return camera;
-}
 
 bool fitParameters(const std::vector<Sight>& sights, int coefficient_count, Camera& camera) {
   Eigen::VectorXd parameters(4 + coefficient_count);
@@ -159,18 +157,18 @@ bool fitParameters(const std::vector<Sight>& sights, int coefficient_count, Came
   return parameters.allFinite() && prepareCamera(camera) == Status::kOk;
 }
 
-/// What a fit is judged by.
+/// Measures the errors of a fitted camera.
 class FitCheck {
  public:
   FitCheck(const Camera& given, double distance_m) {
     for (const Eigen::Vector2d& pixel : checkedPixels(given)) {
-      Sight near, far;
-      if (!sightAt(given, pixel, distance_m, near)) {
+      const auto near = sightAt(given, pixel, distance_m);
+      if (!near) {
         ++without_ray_count_;
         continue;
       }
-      near_.push_back(near);
-      if (sightAt(given, pixel, kFar_m, far)) far_.push_back(far);
+      near_.push_back(*near);
+      if (const auto far = sightAt(given, pixel, kFar_m)) far_.push_back(*far);
     }
   }
 
@@ -181,14 +179,14 @@ class FitCheck {
     fitted.checked_count = without_ray_count_ + static_cast<int>(near_.size());
     double squares = 0.0;
     for (const Sight& sight : near_) {
-      double error_px = 0.0;
-      if (!errorOf(camera, sight, error_px)) {
+      const auto error_px = errorOf(camera, sight);
+      if (!error_px) {
         ++fitted.unseen_count;
         continue;
       }
-      squares += error_px * error_px;
-      if (error_px <= fitted.worst_error_px) continue;
-      fitted.worst_error_px = error_px;
+      squares += *error_px * *error_px;
+      if (*error_px <= fitted.worst_error_px) continue;
+      fitted.worst_error_px = *error_px;
       fitted.worst_pixel = sight.pixel;
     }
     const auto seen_count = static_cast<int>(near_.size()) - fitted.unseen_count;
@@ -197,18 +195,16 @@ class FitCheck {
   }
 
   void measureFar(FittedCamera& fitted) const {
-    double error_px = 0.0;
     for (const Sight& sight : far_)
-      if (errorOf(fitted.camera, sight, error_px))
-        fitted.worst_error_far_px = std::max(fitted.worst_error_far_px, error_px);
+      fitted.worst_error_far_px =
+          std::max(fitted.worst_error_far_px, errorOf(fitted.camera, sight).value_or(0.0));
   }
 
  private:
-  static bool errorOf(const Camera& camera, const Sight& sight, double& error_px) {
+  static std::optional<double> errorOf(const Camera& camera, const Sight& sight) {
     Eigen::Vector2d found;
-    if (!project(camera, sight.point_m, found)) return false;
-    error_px = (found - sight.pixel).norm();
-    return true;
+    if (!project(camera, sight.point_m, found)) return std::nullopt;
+    return (found - sight.pixel).norm();
   }
 
   std::vector<Sight> near_, far_;
@@ -224,28 +220,20 @@ double costOf(const FittedCamera& fitted) {
          std::max(1, with_ray);
 }
 
-/// How many coefficients are tried; 0 of a pinhole.
+/// Numbers of coefficients to try; 0 for a pinhole.
 std::vector<int> coefficientCounts(CameraModel model) {
   if (model == CameraModel::kPinhole) return {0};
   if (model == CameraModel::kKannalaBrandt) return {4};
   return {kPolynomialCount, 8};
 }
 
-/// Whether more coefficients pay: by a thousandth of a pixel and a tenth.
+/// Whether more coefficients are worth it: the worst error falls by a tenth and 0.001 px.
 bool isBetter(const FittedCamera& longer, const FittedCamera& shorter) {
   if (longer.unseen_count != shorter.unseen_count) return costOf(longer) < costOf(shorter);
   return longer.worst_error_px < 0.9 * shorter.worst_error_px - 1e-3;
 }
 
-std::vector<Sight> sightsOf(const Camera& given, double distance_m) {
-  std::vector<Sight> sights;
-  Sight sight;
-  for (const Eigen::Vector2d& pixel : pixelGrid(given, kFitSteps))
-    if (sightAt(given, pixel, distance_m, sight)) sights.push_back(sight);
-  return sights;
-}
-
-/// What a camera sees up to an angle off the axis.
+/// Points that a camera sees up to an angle off the axis.
 struct Field {
   double widest_rad = 0.0;
   std::vector<Sight> sights;
@@ -261,7 +249,7 @@ std::vector<Field> growingFields(const std::vector<Sight>& sights, CameraModel m
     const std::size_t before = fields.empty() ? kFewestSights - 1 : fields.back().sights.size();
     if (field.sights.size() > before) fields.push_back(std::move(field));
   };
-  for (const double angle_deg : kFieldAngles_deg) add(std::tan(angle_deg * kRadPerDeg));
+  for (const double angle_deg : kFieldAngles_deg) add(std::tan(angle_deg * kDegree_rad));
   add(model == CameraModel::kBrownConrady ? kWithoutLimit
                                           : std::numeric_limits<double>::infinity());
   return fields;
@@ -316,15 +304,11 @@ Camera rationalStart(const Camera& kannala_brandt, double widest_rad) {
 }
 
 /// The best of some fits, where there is one.
-struct BestFit {
-  bool found = false;
-  FittedCamera fitted;
+using BestFit = std::optional<FittedCamera>;
 
-  void offer(const FittedCamera& other) {
-    if (!found || costOf(other) < costOf(fitted)) fitted = other;
-    found = true;
-  }
-};
+void offer(const FittedCamera& fitted, BestFit& best) {
+  if (!best || costOf(fitted) < costOf(*best)) best = fitted;
+}
 
 /// The best fits to growing fields, for each number of coefficients. Each starts from the fit of
 /// the field before; with more coefficients than the polynomial's also from the polynomial, and in
@@ -339,15 +323,14 @@ std::vector<BestFit> fitGrowing(const Camera& start, const std::vector<Field>& f
     for (std::size_t i = 0; i < counts.size(); ++i) {
       BestFit best_fit;
       const auto fitFrom = [&](Camera camera) {
-        if (fitParameters(field.sights, counts[i], camera)) best_fit.offer(check.measured(camera));
+        if (fitParameters(field.sights, counts[i], camera)) offer(check.measured(camera), best_fit);
       };
       fitFrom(reached[i]);
       if (i > 0) fitFrom(reached[i - 1]);
-      if (i > 0 && equidistant.found)
-        fitFrom(rationalStart(equidistant.fitted.camera, field.widest_rad));
-      if (!best_fit.found) continue;
-      reached[i] = best_fit.fitted.camera;
-      best[i].offer(best_fit.fitted);
+      if (i > 0 && equidistant) fitFrom(rationalStart(equidistant->camera, field.widest_rad));
+      if (!best_fit) continue;
+      reached[i] = best_fit->camera;
+      offer(*best_fit, best[i]);
     }
   return best;
 }
@@ -359,14 +342,11 @@ std::vector<BestFit> fitsOf(const Camera& given, CameraModel model,
   BestFit equidistant;
   if (model == CameraModel::kBrownConrady && fields.size() > 1)
     equidistant = fitsOf(given, CameraModel::kKannalaBrandt, sights, check).front();
-  return fitGrowing(startCamera(given, model), fields, coefficientCounts(model), check,
-                    equidistant);
-}
-
-std::string threeDigits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  Camera start = given;
+  start.model = model;
+  start.distortion = {};
+  start.cahv = {};
+  return fitGrowing(start, fields, coefficientCounts(model), check, equidistant);
 }
 
 }  // namespace
@@ -383,12 +363,12 @@ FittedCamera fitCamera(const Camera& given, CameraModel model, double distance_m
   const FitCheck check(given, distance_m);
   BestFit best;
   for (const BestFit& best_fit : fitsOf(given, model, sights, check))
-    if (best_fit.found && (!best.found || isBetter(best_fit.fitted, best.fitted))) best = best_fit;
-  if (!best.found)
+    if (best_fit && (!best || isBetter(*best_fit, *best))) best = best_fit;
+  if (!best)
     throw std::runtime_error(std::string("no ") + cameraModelName(model) +
                              " camera approximates it");
-  check.measureFar(best.fitted);
-  return best.fitted;
+  check.measureFar(*best);
+  return *best;
 }
 
 std::string fitText(const FittedCamera& fitted) {
@@ -410,9 +390,10 @@ void writeFittedCamera(const std::filesystem::path& file, const FittedCamera& fi
                        const Camera& given, const std::string& given_name, double distance_m) {
   nlohmann::ordered_json json = {{"format", "boresight-camera"}, {"version", 1}};
   json.update(toJson(fitted.camera));
-  nlohmann::ordered_json from = {{"file", given_name}, {"model", cameraModelName(given.model)}};
-  from["worst_error_px"] = fitted.worst_error_px;
-  from["rms_error_px"] = fitted.rms_error_px;
+  nlohmann::ordered_json from = {{"file", given_name},
+                                 {"model", cameraModelName(given.model)},
+                                 {"worst_error_px", fitted.worst_error_px},
+                                 {"rms_error_px", fitted.rms_error_px}};
   if (std::isfinite(distance_m)) {
     from["distance_m"] = distance_m;
     from["worst_error_far_px"] = fitted.worst_error_far_px;

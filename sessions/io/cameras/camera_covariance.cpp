@@ -12,6 +12,7 @@
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/cameras/pose_file.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 
 namespace boresight::sessions {
 namespace {
@@ -94,13 +95,7 @@ CameraCovariance readCameraCovariance(const JsonReader& json, CameraModel model)
 }
 
 nlohmann::ordered_json toJson(const CameraCovariance& covariance) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (Eigen::Index i = 0; i < covariance.of_vectors.rows(); ++i) {
-    nlohmann::ordered_json& row = rows.emplace_back(nlohmann::ordered_json::array());
-    for (Eigen::Index j = 0; j < covariance.of_vectors.cols(); ++j)
-      row.push_back(covariance.of_vectors(i, j));
-  }
-  return rows;
+  return toJson(covariance.of_vectors);
 }
 
 std::vector<VectorStep> vectorSteps(const Camera& camera) {

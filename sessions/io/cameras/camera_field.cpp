@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/cameras/camera_field.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 
 #include "core/base/math.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -55,13 +54,10 @@ std::string fieldConcern(const Camera& camera) {
   if (angle_rad >= kWide_rad) return "";
   const double share = shareWithoutRay(camera);
   if (share <= kMostWithoutRay) return "";
-  std::array<char, 256> text{};
-  (void)std::snprintf(
-      text.data(), text.size(),
+  return formatText(
       "the distortion folds back %.1f deg off the optical axis, %.0f px from it, and "
       "%.0f %% of the image lie beyond: check the coefficients' order and signs",
       angle_rad / kDegree_rad, fieldRadius_px(camera, angle_rad), 100.0 * share);
-  return text.data();
 }
 
 void requireField(const std::filesystem::path& file, const std::string& field,

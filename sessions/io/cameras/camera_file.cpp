@@ -9,6 +9,7 @@
 
 #include "sessions/io/cameras/raw_metadata.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/io/json/json_writer.h"
 
@@ -38,12 +39,10 @@ CahvModel readVectors(CameraModel model, const JsonReader& json) {
 /// Cuts the camera to the sub-frame of the image: vectors are those of the whole image.
 void cutSubframe(const JsonReader& json, CameraFile& file) {
   Camera& camera = file.camera;
-  const double scale = json.find("scale") ? json.at("scale").number(1e-3, 1e3) : 1.0;
-  const auto firstOf = [&](const char* key) {
-    return json.find(key) ? json.at(key).number(-1e6, 1e6) : 0.0;
-  };
-  const double first_x = firstOf("first_sample");
-  const double first_y = firstOf("first_line");
+  double scale = 1.0, first_x = 0.0, first_y = 0.0;
+  json.optional("scale", scale, numberIn(1e-3, 1e3));
+  json.optional("first_sample", first_x, numberIn(-1e6, 1e6));
+  json.optional("first_line", first_y, numberIn(-1e6, 1e6));
   camera.cx = (camera.cx - first_x + 0.5) / scale - 0.5;
   camera.cy = (camera.cy - first_y + 0.5) / scale - 0.5;
   const double to_centre_px = 0.5 - 0.5 * scale;
@@ -70,16 +69,6 @@ CameraModel readModel(const JsonReader& json) {
              "' (pinhole, brown_conrady, kannala_brandt, cahv, cahvor or cahvore is needed)");
 }
 
-const char* expectedCoefficients(CameraModel model) {
-  if (model == CameraModel::kBrownConrady) return "brown_conrady needs 4, 5 or 8 coefficients";
-  return "kannala_brandt needs 4 coefficients";
-}
-
-bool coefficientCountFits(CameraModel model, std::size_t count) {
-  if (model == CameraModel::kKannalaBrandt) return count == 4;
-  return count == 4 || count == 5 || count == 8;
-}
-
 void readDistortion(const JsonReader& json, Camera& camera) {
   if (camera.model == CameraModel::kPinhole) {
     // Coefficients that would be ignored are rejected; zeros change nothing.
@@ -91,11 +80,13 @@ void readDistortion(const JsonReader& json, Camera& camera) {
   }
   const JsonReader dist = json.at("dist");
   const std::vector<JsonReader> coefficients = dist.elements();
-  if (!coefficientCountFits(camera.model, coefficients.size()))
-    dist.fail(std::string(expectedCoefficients(camera.model)) + ", " +
-              std::to_string(coefficients.size()) + " given");
-  for (std::size_t i = 0; i < coefficients.size(); ++i)
-    camera.distortion[i] = coefficients[i].number();
+  const std::size_t count = coefficients.size();
+  const bool brown_conrady = camera.model == CameraModel::kBrownConrady;
+  if (count != 4 && !(brown_conrady && (count == 5 || count == 8)))
+    dist.fail(
+        std::string(brown_conrady ? "brown_conrady needs 4, 5 or 8" : "kannala_brandt needs 4") +
+        " coefficients, " + std::to_string(count) + " given");
+  for (std::size_t i = 0; i < count; ++i) camera.distortion[i] = coefficients[i].number();
 }
 
 CameraFile readLensCamera(CameraModel model, const JsonReader& json) {
@@ -135,8 +126,7 @@ CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
     if (prepareCamera(file->camera) != Status::kOk) file.reset();
   }
   if (!file) json.fail(kVectorsCannotProject);
-  if (const auto frame = json.find("reference_frame"))
-    file->reference->frame = readFrameName(*frame);
+  json.optional("reference_frame", file->reference->frame, readFrameName);
   return *file;
 }
 
@@ -144,10 +134,9 @@ CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
 nlohmann::ordered_json cahvJson(const CameraFile& file) {
   const CahvModel cahv =
       cahvFromCamera(file.camera, file.reference ? file.reference->camera_from_reference : Pose());
-  nlohmann::ordered_json json;
-  json["model"] = cameraModelName(cahv.model);
-  json["width"] = file.camera.width;
-  json["height"] = file.camera.height;
+  nlohmann::ordered_json json = {{"model", cameraModelName(cahv.model)},
+                                 {"width", file.camera.width},
+                                 {"height", file.camera.height}};
   forVectors(cahv, [&json](const char* key, const Eigen::Vector3d& vector) {
     json[key] = toJson(vector);
   });
@@ -165,6 +154,10 @@ nlohmann::ordered_json cahvJson(const CameraFile& file) {
 }
 
 }  // namespace
+
+bool isImageSide(double side_px) {
+  return side_px >= 1.0 && side_px <= kMaxImageSide_px && side_px == std::floor(side_px);
+}
 
 std::optional<CameraFile> cameraOfVectors(const CahvModel& cahv, int width, int height) {
   CameraFile file;
@@ -197,8 +190,6 @@ std::string frameText(const FrameName& frame) {
   return frame.name + (index.empty() ? "" : index + ")");
 }
 
-double readMeshScaleSigma(const JsonReader& json) { return json.number(0.0, kMaxScaleSigma); }
-
 CalibrationSigma readCalibrationSigma(const JsonReader& json) {
   return {json.at("focal_relative").number(0.0, kMaxFocalSigma),
           json.at("principal_point_px").number(0.0, kMaxPrincipalPointSigma_px)};
@@ -211,14 +202,19 @@ nlohmann::ordered_json toJson(const CalibrationSigma& sigma) {
 
 const char* cameraModelName(CameraModel model) { return kModelNames[static_cast<int>(model)]; }
 
+std::optional<CameraModel> cahvModelOf(const std::string& name) {
+  for (const CameraModel model : {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
+    if (lowerCase(name) == cameraModelName(model)) return model;
+  return std::nullopt;
+}
+
 CameraFile readCameraFile(const JsonReader& json) {
   if (json.has("format"))
     json.requireFormat(kCameraFormat, kCameraVersion);  // a file's content in a dataset
   (void)json.has("fitted_from");  // not read: the camera that this one was fitted to
   const CameraModel model = readModel(json);
   CameraFile file = isCahvFamily(model) ? readCahvCamera(model, json) : readLensCamera(model, json);
-  if (const auto sigma = json.find("calibration_sigma"))
-    file.calibration_sigma = readCalibrationSigma(*sigma);
+  json.optional("calibration_sigma", file.calibration_sigma, readCalibrationSigma);
   return file;
 }
 
@@ -229,8 +225,6 @@ CameraFile readCameraJson(const std::filesystem::path& file) {
                        [](const JsonReader& json) { return readCameraFile(json); });
 }
 
-Camera readCamera(const JsonReader& json) { return readCameraFile(json).camera; }
-
 nlohmann::ordered_json toJson(const CameraFile& file) {
   nlohmann::ordered_json json =
       isCahvFamily(file.camera.model) ? cahvJson(file) : toJson(file.camera);
@@ -240,14 +234,13 @@ nlohmann::ordered_json toJson(const CameraFile& file) {
 
 nlohmann::ordered_json toJson(const Camera& camera) {
   if (isCahvFamily(camera.model)) return cahvJson({camera});
-  nlohmann::ordered_json json;
-  json["model"] = cameraModelName(camera.model);
-  json["width"] = camera.width;
-  json["height"] = camera.height;
-  json["fx"] = camera.fx;
-  json["fy"] = camera.fy;
-  json["cx"] = camera.cx;
-  json["cy"] = camera.cy;
+  nlohmann::ordered_json json = {{"model", cameraModelName(camera.model)},
+                                 {"width", camera.width},
+                                 {"height", camera.height},
+                                 {"fx", camera.fx},
+                                 {"fy", camera.fy},
+                                 {"cx", camera.cx},
+                                 {"cy", camera.cy}};
   if (camera.model == CameraModel::kPinhole) return json;
   const auto& distortion = camera.distortion;
   std::ptrdiff_t count = 4;
@@ -258,10 +251,6 @@ nlohmann::ordered_json toJson(const Camera& camera) {
   }
   json["dist"] = std::vector<double>(distortion.begin(), distortion.begin() + count);
   return json;
-}
-
-void writeCamera(const std::filesystem::path& file, const Camera& camera) {
-  writeCamera(file, CameraFile{camera});
 }
 
 void writeCamera(const std::filesystem::path& file, const CameraFile& camera) {

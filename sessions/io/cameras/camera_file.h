@@ -35,15 +35,14 @@ inline constexpr double kMaxScaleSigma = 0.1;
 inline constexpr double kMaxFocalSigma = 0.1;
 inline constexpr double kMaxPrincipalPointSigma_px = 1000.0;
 
-/// Reads a `mesh_scale_sigma`. InputError.
-double readMeshScaleSigma(const JsonReader& json);
-
 /// Reads {"focal_relative", "principal_point_px"}. InputError.
 CalibrationSigma readCalibrationSigma(const JsonReader& json);
 nlohmann::ordered_json toJson(const CalibrationSigma& sigma);
 
 /// Longest side of an image or a camera, px: edge pixels are stored in 16 bits.
 inline constexpr int kMaxImageSide_px = 16384;
+/// Whether this is a whole number of pixels, 1 to kMaxImageSide_px.
+bool isImageSide(double side_px);
 
 /// Calls `visit(key, vector)` for each vector of the model: C A H V, of CAHVOR and CAHVORE also O
 /// R, of CAHVORE also E.
@@ -106,8 +105,6 @@ CameraFile readCameraJson(const std::filesystem::path& file);
 
 /// A camera inside another file: the members of camera.json without format and version. InputError.
 CameraFile readCameraFile(const JsonReader& json);
-/// The camera alone, without its reference frame.
-Camera readCamera(const JsonReader& json);
 
 /// The members of camera.json without format and version; reading it back gives the same bits. The
 /// vectors of the CAHV family are then those in the camera's own frame.
@@ -116,10 +113,11 @@ nlohmann::ordered_json toJson(const Camera& camera);
 nlohmann::ordered_json toJson(const CameraFile& file);
 
 /// Writes camera.json; OutputError.
-void writeCamera(const std::filesystem::path& file, const Camera& camera);
 void writeCamera(const std::filesystem::path& file, const CameraFile& camera);
 
 /// Name of a model in files, e.g. "brown_conrady".
 const char* cameraModelName(CameraModel model);
+/// The model of the CAHV family of this name, in any case; empty for other names.
+std::optional<CameraModel> cahvModelOf(const std::string& name);
 
 }  // namespace boresight::sessions

@@ -59,8 +59,8 @@ FrameTransform readTransformMembers(const JsonReader& json) {
   if (covariance && sigma) sigma->fail("cannot be combined with covariance; give one of the two");
   if (covariance) transform.covariance = readCovariance(*covariance);
   if (sigma) transform.covariance = readSigma(*sigma, transform.target_from_source);
-  if (const auto origin = json.find("origin")) transform.origin = readOrigin(*origin);
-  if (const auto comment = json.find("comment")) transform.comment = comment->nonEmptyText();
+  json.optional("origin", transform.origin, readOrigin);
+  json.optional("comment", transform.comment, &JsonReader::nonEmptyText);
   return transform;
 }
 
@@ -79,9 +79,7 @@ std::vector<FrameTransform> readFrameTransforms(const std::filesystem::path& fil
   const auto bytes = readFileBytes(file, kMaxJsonBytes);
   const JsonDocument document(file, asText(bytes));
   std::vector<FrameTransform> transforms;
-  const JsonReader root = document.root();
-  const auto format = root.isObject() ? root.find("format") : std::nullopt;
-  if (format && format->isText() && format->text() == kFramesFormat)
+  if (document.root().hasFormat(kFramesFormat))
     transforms = document.read(kFramesFormat, kVersion, readList);
   else
     transforms = {document.read(kTransformFormat, kVersion, readTransformMembers)};

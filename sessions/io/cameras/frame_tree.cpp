@@ -45,20 +45,6 @@ bool findLinks(std::span<const FrameTransform> transforms, const FrameName& at,
   return false;
 }
 
-std::optional<FrameChain> findChain(std::span<const FrameTransform> transforms, const FrameName& a,
-                                    const FrameName& b) {
-  FrameChain chain;
-  if (!findLinks(transforms, a, b, nullptr, chain.links)) return std::nullopt;
-  for (FrameLink& link : chain.links) {
-    const Matrix6d turn = adjointOf(chain.a_from_b);
-    link.contribution = turn * link.covariance * turn.transpose();
-    chain.covariance += link.contribution;
-    chain.covariance_stated = chain.covariance_stated || link.transform->covariance.has_value();
-    chain.a_from_b = chain.a_from_b * link.to_from_from;
-  }
-  return chain;
-}
-
 [[noreturn]] void refuseLoop(const FrameTransform& second, const FrameChain& first) {
   if (first.links.empty())
     throw InputError(second.file, "leads from " + frameText(second.source) +
@@ -91,7 +77,7 @@ std::string FrameChain::path() const {
 FrameTree::FrameTree(std::vector<FrameTransform> transforms) {
   transforms_.reserve(transforms.size());
   for (FrameTransform& transform : transforms) {
-    const auto known = findChain(transforms_, transform.target, transform.source);
+    const auto known = chain(transform.target, transform.source);
     if (!known) {
       transforms_.push_back(std::move(transform));
       continue;
@@ -102,7 +88,16 @@ FrameTree::FrameTree(std::vector<FrameTransform> transforms) {
 }
 
 std::optional<FrameChain> FrameTree::chain(const FrameName& a, const FrameName& b) const {
-  return findChain(transforms_, a, b);
+  FrameChain found;
+  if (!findLinks(transforms_, a, b, nullptr, found.links)) return std::nullopt;
+  for (FrameLink& link : found.links) {
+    const Matrix6d turn = adjointOf(found.a_from_b);
+    link.contribution = turn * link.covariance * turn.transpose();
+    found.covariance += link.contribution;
+    found.covariance_stated = found.covariance_stated || link.transform->covariance.has_value();
+    found.a_from_b = found.a_from_b * link.to_from_from;
+  }
+  return found;
 }
 
 std::vector<FrameName> FrameTree::frames() const {
@@ -114,6 +109,10 @@ std::vector<FrameName> FrameTree::frames() const {
 }
 
 namespace {
+
+bool hasRow(std::span<const FrameRow> rows, const FrameName& frame) {
+  return std::ranges::find(rows, frame, &FrameRow::frame) != rows.end();
+}
 
 FrameRow rowBelow(const FrameLink& link, int parent) {
   FrameRow row{link.from(), parent, *link.transform, link.to_from_from, std::nullopt};
@@ -128,10 +127,7 @@ void addBelow(const std::vector<FrameTransform>& transforms, std::vector<FrameRo
       const FrameName& frame = rows[at].frame;
       if (transform.target != frame && transform.source != frame) continue;
       const FrameLink link = linkOf(transform, transform.source == frame);
-      const bool known = std::any_of(rows.begin(), rows.end(), [&link](const FrameRow& row) {
-        return row.frame == link.from();
-      });
-      if (!known) rows.push_back(rowBelow(link, static_cast<int>(at)));
+      if (!hasRow(rows, link.from())) rows.push_back(rowBelow(link, static_cast<int>(at)));
     }
 }
 
@@ -142,9 +138,7 @@ std::vector<FrameRow> frameRows(const FrameTree& tree) {
   tops.insert(tops.begin(), kCameraFrame);
   std::vector<FrameRow> rows;
   for (const FrameName& top : tops) {
-    const bool known = std::any_of(rows.begin(), rows.end(),
-                                   [&top](const FrameRow& row) { return row.frame == top; });
-    if (known) continue;
+    if (hasRow(rows, top)) continue;
     rows.push_back({top, -1, std::nullopt, {}, std::nullopt});
     addBelow(tree.transforms(), rows);
   }

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
-#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_writer.h"
 
 namespace boresight::sessions {
@@ -16,6 +16,7 @@ constexpr double kLastRowTolerance = 1e-9;
 constexpr double kNotedDeviation = 1e-6;
 constexpr double kMaxTranslation_m = 1e6;
 constexpr double kMostAsymmetry = 1e-6;  ///< of a covariance, of its diagonal
+constexpr auto kPivot = choiceOf<UncertaintyPivot>("camera", "station");
 
 }  // namespace
 
@@ -59,10 +60,7 @@ DeclaredUncertainty readUncertainty(const JsonReader& json) {
   DeclaredUncertainty uncertainty;
   uncertainty.translation_m = json.at("translation_m").vector3(0.0, 1000.0);
   uncertainty.rotation_deg = json.at("rotation_deg").vector3(0.0, 180.0);
-  if (const auto pivot = json.find("pivot"))
-    uncertainty.pivot = pivot->choice({"camera", "station"}) == "station"
-                            ? UncertaintyPivot::kStation
-                            : UncertaintyPivot::kCamera;
+  json.optional("pivot", uncertainty.pivot, kPivot);
   return uncertainty;
 }
 
@@ -81,11 +79,11 @@ std::string notJoinedText(const FrameName& frame, const PoseFrames& frames) {
   const std::string wanted = model ? "the two" : "it and CAMERA";
   if (frames.transforms.empty())
     return needed + "; give the transform between " + wanted + " (transform.json)";
-  std::string others;
+  std::vector<std::string> others;
   for (const FrameTransform& transform : frames.transforms)
-    others += (others.empty() ? "" : ", ") + transform.file.filename().string() + " leads from " +
-              frameText(transform.source) + " to " + frameText(transform.target);
-  return needed + ", and no transforms join " + wanted + ": " + others;
+    others.push_back(transform.file.filename().string() + " leads from " +
+                     frameText(transform.source) + " to " + frameText(transform.target));
+  return needed + ", and no transforms join " + wanted + ": " + joined(others);
 }
 
 /// A pose of the station in the camera model's frame, or in one that is joined to the camera.
@@ -127,33 +125,17 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
     pose.camera_from_station =
         readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
   }
-  if (const auto uncertainty = json.find("uncertainty"))
-    pose.uncertainty = readUncertainty(*uncertainty);
-  if (const auto covariance = json.find("covariance"))
-    pose.covariance = readCovariance(*covariance);
+  json.optional("uncertainty", pose.uncertainty, readUncertainty);
+  json.optional("covariance", pose.covariance, readCovariance);
   return pose;
 }
-
-namespace {
-
-PoseFile readValidatedPose(const JsonReader& json) {
-  PoseFile pose;
-  pose.camera_from_station =
-      readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
-  if (const auto covariance = json.find("covariance"))
-    pose.covariance = readCovariance(*covariance);
-  return pose;
-}
-
-}  // namespace
 
 PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
   const JsonDocument document(file);
   const JsonReader root = document.root();
-  const auto format = root.isObject() ? root.find("format") : std::nullopt;
-  if (format && format->isText() && format->text() == kValidatedPoseFormat) {
+  if (root.hasFormat(kValidatedPoseFormat)) {
     root.requireFormat(kValidatedPoseFormat, 1);
-    return readValidatedPose(root.at("pose"));
+    return readPose(root.at("pose"), frames);
   }
   return document.read(kPoseFormat, kPoseVersion,
                        [&frames](const JsonReader& json) { return readPose(json, frames); });
@@ -168,21 +150,16 @@ std::string projectionNote(double rotation_deviation) {
 SeedUncertainty seedUncertainty(const DeclaredUncertainty& declared,
                                 const Pose& camera_from_station_seed,
                                 const Eigen::Vector3d& matched_centre_in_station_m) {
-  SeedUncertainty uncertainty;
-  uncertainty.translation_m = declared.translation_m;
-  uncertainty.rotation_rad = declared.rotation_deg * kDegree_rad;
-  uncertainty.pivot_in_camera_m = Eigen::Vector3d::Zero();
+  SeedUncertainty uncertainty{declared.translation_m, declared.rotation_deg * kDegree_rad};
   if (declared.pivot == UncertaintyPivot::kStation)
     uncertainty.pivot_in_camera_m = camera_from_station_seed * matched_centre_in_station_m;
   return uncertainty;
 }
 
 nlohmann::ordered_json toJson(const DeclaredUncertainty& uncertainty) {
-  nlohmann::ordered_json json;
-  json["translation_m"] = toJson(uncertainty.translation_m);
-  json["rotation_deg"] = toJson(uncertainty.rotation_deg);
-  json["pivot"] = uncertainty.pivot == UncertaintyPivot::kStation ? "station" : "camera";
-  return json;
+  return {{"translation_m", toJson(uncertainty.translation_m)},
+          {"rotation_deg", toJson(uncertainty.rotation_deg)},
+          {"pivot", kPivot.write(uncertainty.pivot)}};
 }
 
 void writePose(const std::filesystem::path& file, const Pose& camera_from_station,

@@ -17,13 +17,9 @@ namespace {
 
 constexpr double kLargest_m = 1e6;
 
-std::string list(std::initializer_list<double> values) {
-  std::string text = "[";
-  for (const double value : values) {
-    if (text.size() > 1) text += ", ";
-    text += numberText(value == 0.0 ? 0.0 : value);  // not "-0"
-  }
-  return text + "]";
+std::string list(std::vector<double> values) {
+  for (double& value : values) value += 0.0;  // not "-0"
+  return "[" + numbersText(values, ", ") + "]";
 }
 
 std::string translationText(const Pose& pose) {
@@ -63,10 +59,7 @@ bool contains(std::string_view text, std::string_view part) {
 }
 
 ParsedPose refused(PoseForm form, std::string problem) {
-  ParsedPose parsed;
-  parsed.form = form;
-  parsed.problem = std::move(problem);
-  return parsed;
+  return {false, {}, form, 0.0, std::move(problem)};
 }
 
 /// Six digits, whatever the locale.
@@ -80,7 +73,7 @@ std::string shortNumber(double value) {
 /// The pose of a rotation and a translation as they were read.
 ParsedPose accepted(PoseForm form, const Eigen::Matrix3d& rotation,
                     const Eigen::Vector3d& translation, const PoseReading& reading) {
-  const double metres = reading.unit == LengthUnit::kMillimetre ? 1.0 / kMillimetres : 1.0;
+  const double metres = reading.millimetres ? 1.0 / kMillimetres : 1.0;
   ParsedPose parsed;
   parsed.form = form;
   Pose pose;
@@ -98,16 +91,14 @@ ParsedPose accepted(PoseForm form, const Eigen::Matrix3d& rotation,
                       (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm()) +
                   "; the limit is 1e-4.");
   parsed.valid = true;
-  parsed.camera_from_station =
-      reading.direction == PoseDirection::kCameraFromStation ? pose : pose.inverse();
+  parsed.camera_from_station = reading.station_from_camera ? pose.inverse() : pose;
   return parsed;
 }
 
 ParsedPose fromMatrix(const std::vector<double>& numbers, const PoseReading& reading) {
   const auto at = [&](std::size_t row, std::size_t column) {
     const std::size_t rows = numbers.size() / 4;
-    return reading.matrix_order == MatrixOrder::kRowMajor ? numbers[4 * row + column]
-                                                          : numbers[rows * column + row];
+    return reading.column_major ? numbers[rows * column + row] : numbers[4 * row + column];
   };
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
@@ -116,25 +107,21 @@ ParsedPose fromMatrix(const std::vector<double>& numbers, const PoseReading& rea
       rotation(static_cast<int>(row), static_cast<int>(column)) = at(row, column);
     translation[static_cast<int>(row)] = at(row, 3);
   }
-  if (numbers.size() == 16) {
-    const bool last = at(3, 0) == 0.0 && at(3, 1) == 0.0 && at(3, 2) == 0.0 && at(3, 3) == 1.0;
-    if (!last)
-      return refused(PoseForm::kMatrix,
-                     "The matrix's last row is not 0 0 0 1; try the other order.");
-  }
+  if (numbers.size() == 16 &&
+      !(at(3, 0) == 0.0 && at(3, 1) == 0.0 && at(3, 2) == 0.0 && at(3, 3) == 1.0))
+    return refused(PoseForm::kMatrix, "The matrix's last row is not 0 0 0 1; try the other order.");
   return accepted(PoseForm::kMatrix, rotation, translation, reading);
 }
 
 ParsedPose fromQuaternion(const std::vector<double>& numbers, const PoseReading& reading) {
-  const bool w_first = reading.quaternion_order == QuaternionOrder::kWxyz;
   const Eigen::Vector4d q(numbers[0], numbers[1], numbers[2], numbers[3]);
   if (!(std::abs(q.norm() - 1.0) <= 1e-4))
     return refused(PoseForm::kQuaternion, "The quaternion is not of unit length (it is " +
                                               shortNumber(q.norm()) + "); the limit is 1e-4.");
   const Eigen::Vector4d unit = q.normalized();
-  const Eigen::Quaterniond rotation = w_first
-                                          ? Eigen::Quaterniond(unit[0], unit[1], unit[2], unit[3])
-                                          : Eigen::Quaterniond(unit[3], unit[0], unit[1], unit[2]);
+  const Eigen::Quaterniond rotation = reading.xyzw
+                                          ? Eigen::Quaterniond(unit)
+                                          : Eigen::Quaterniond(unit[0], unit[1], unit[2], unit[3]);
   return accepted(PoseForm::kQuaternion, rotation.toRotationMatrix(),
                   {numbers[4], numbers[5], numbers[6]}, reading);
 }
@@ -176,14 +163,14 @@ std::string poseText(const Pose& camera_from_station, PoseForm form) {
 
 PoseReading guessReading(std::string_view text) {
   PoseReading guess;
-  if (contains(text, "station_from_camera")) guess.direction = PoseDirection::kStationFromCamera;
-  if (contains(text, "xyzw")) guess.quaternion_order = QuaternionOrder::kXyzw;
-  if (contains(text, "mm")) guess.unit = LengthUnit::kMillimetre;
+  guess.station_from_camera = contains(text, "station_from_camera");
+  guess.xyzw = contains(text, "xyzw");
+  guess.millimetres = contains(text, "mm");
   const std::vector<double> n = numbersIn(text);
   if (n.size() != 16) return guess;
   const bool last_column = n[3] == 0.0 && n[7] == 0.0 && n[11] == 0.0;
   const bool last_row = n[12] == 0.0 && n[13] == 0.0 && n[14] == 0.0;
-  if (last_column && !last_row) guess.matrix_order = MatrixOrder::kColumnMajor;
+  guess.column_major = last_column && !last_row;
   return guess;
 }
 

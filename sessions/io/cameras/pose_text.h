@@ -10,10 +10,6 @@ namespace boresight::sessions {
 
 /// Forms of a pose as text, for operators and other programs.
 enum class PoseForm { kRotationVector, kQuaternion, kMatrix };
-enum class PoseDirection { kCameraFromStation, kStationFromCamera };
-enum class MatrixOrder { kRowMajor, kColumnMajor };
-enum class QuaternionOrder { kWxyz, kXyzw };
-enum class LengthUnit { kMetre, kMillimetre };
 
 /// The unit quaternion with w >= 0 (at half turns, with the first nonzero of x, y, z positive).
 Eigen::Quaterniond shownQuaternion(const Eigen::Quaterniond& rotation);
@@ -24,10 +20,10 @@ std::string poseText(const Pose& camera_from_station, PoseForm form);
 
 /// Meaning of the numbers of a text; chosen by the operator, as texts do not state all of it.
 struct PoseReading {
-  PoseDirection direction = PoseDirection::kCameraFromStation;
-  MatrixOrder matrix_order = MatrixOrder::kRowMajor;
-  QuaternionOrder quaternion_order = QuaternionOrder::kWxyz;
-  LengthUnit unit = LengthUnit::kMetre;
+  bool station_from_camera = false;  ///< else camera_from_station
+  bool column_major = false;         ///< else row-major
+  bool xyzw = false;                 ///< order of a quaternion; else wxyz
+  bool millimetres = false;          ///< else metres
 };
 
 /// Meaning indicated by the text itself (names, a last row of 0 0 0 1): the default of a dialog.

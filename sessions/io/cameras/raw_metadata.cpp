@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 namespace boresight::sessions {
 namespace {
 
@@ -31,21 +33,13 @@ std::vector<double> numbersOf(const JsonReader& json) {
   return numbers;
 }
 
-CameraModel modelOf(const JsonReader& json) {
-  const std::string name = json.choice({"CAHV", "CAHVOR", "CAHVORE"});
-  if (name == "CAHV") return CameraModel::kCahv;
-  return name == "CAHVOR" ? CameraModel::kCahvor : CameraModel::kCahvore;
-}
-
 CahvModel modelOf(const JsonReader& type, const JsonReader& components) {
   CahvModel cahv;
-  cahv.model = modelOf(type);
+  cahv.model = *cahvModelOf(type.choice({"CAHV", "CAHVOR", "CAHVORE"}));
   const std::vector<double> numbers = numbersOf(components);
   std::size_t used = 0;
-  std::size_t needed = 0;
-  forVectors(cahv, [&needed](const char*, const Eigen::Vector3d&) { needed += 3; });
-  if (cahv.model == CameraModel::kCahvore) needed += 2;
-  if (numbers.size() < needed)
+  const int needed = vectorComponents(cahv.model) + (cahv.model == CameraModel::kCahvore ? 2 : 0);
+  if (std::ssize(numbers) < needed)
     components.fail(std::to_string(needed) + " numbers are needed, " +
                     std::to_string(numbers.size()) + " given");
   forVectors(cahv, [&](const char*, Eigen::Vector3d& vector) {
@@ -61,25 +55,23 @@ CahvModel modelOf(const JsonReader& type, const JsonReader& components) {
 
 }  // namespace
 
-bool isRawMetadata(const JsonReader& json) { return json.isObject() && json.has(kComponents); }
+bool isRawMetadata(const JsonReader& json) {
+  return json.value().is_object() && json.has(kComponents);
+}
 
 CameraFile readRawMetadata(const JsonReader& json) {
   const JsonReader components = json.at(kComponents);
   const CahvModel cahv = modelOf(json.at("camera_model_type"), components);
   const JsonReader dimension = json.at("dimension");
   const std::vector<double> size = numbersOf(dimension);
-  const auto isSide = [](double side) {
-    return side >= 1 && side <= kMaxImageSide_px && side == std::floor(side);
-  };
-  if (size.size() != 2 || !isSide(size[0]) || !isSide(size[1]))
+  if (size.size() != 2 || !isImageSide(size[0]) || !isImageSide(size[1]))
     dimension.fail("not the width and height of an image");
-  CameraFile file;
-  CameraReference& reference = file.reference.emplace();
-  if (cameraFromCahv(cahv, static_cast<int>(size[0]), static_cast<int>(size[1]), file.camera,
-                     reference.camera_from_reference) != Status::kOk)
-    components.fail("no camera has these vectors");
-  reference.frame = {"ROVER_NAV_FRAME", {json.at("site").integer(), json.at("drive").integer()}};
-  return file;
+  std::optional<CameraFile> file =
+      cameraOfVectors(cahv, static_cast<int>(size[0]), static_cast<int>(size[1]));
+  if (!file) components.fail("no camera has these vectors");
+  file->reference->frame = {"ROVER_NAV_FRAME",
+                            {json.at("site").integer(), json.at("drive").integer()}};
+  return *file;
 }
 
 }  // namespace boresight::sessions

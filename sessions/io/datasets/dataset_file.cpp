@@ -12,7 +12,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/io/images/labels/image_label.h"
-#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_fields.h"
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/text/units.h"
 
@@ -30,6 +30,19 @@ Pose readDiscrete(const JsonReader& json) {
   if (poseFromMatrix(matrix.block<3, 3>(0, 0), translation_m, pose, deviation) != Status::kOk)
     json.fail("is not a rotation with a translation");
   return pose;
+}
+
+/// `axis` (of any length) and, under `point_key`, a point on it, station frame.
+AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
+                              double units_per_metre) {
+  AxisSymmetry symmetry;
+  symmetry.axis = json.at("axis").vector3();
+  const double length = symmetry.axis.norm();
+  if (!(length > 1e-9)) json.failMember("axis", "has no direction");
+  symmetry.axis /= length;
+  if (const auto point = json.find(point_key))
+    symmetry.point_m = point->vector3() / units_per_metre;
+  return symmetry;
 }
 
 constexpr const char* kDatasetFormat = "boresight-dataset";
@@ -65,8 +78,8 @@ PartSource readPart(const JsonReader& json, Dataset& dataset) {
     json.failMember("mesh_unit",
                     std::string("missing: ") + meshFormatName(*format) + " carries no unit");
   }
-  if (const auto name = json.find("name")) source.name = name->nonEmptyText();
-  if (const auto frame = json.find("frame")) source.frame = readPartFrame(*frame);
+  json.optional("name", source.name, kNonEmptyText);
+  json.optional("frame", source.frame, readPartFrame);
   if (const auto transform = json.find("frame_from_mesh"))
     source.frame_from_mesh = readNotedTransform(*transform, dataset);
   if (const auto transform = json.find("station_from_mesh")) {
@@ -76,10 +89,9 @@ PartSource readPart(const JsonReader& json, Dataset& dataset) {
   }
   if (const auto threshold = json.find("normal_threshold_deg"))
     source.normal_threshold_rad = threshold->number(0.1, 180.0) * kDegree_rad;
-  if (const auto threshold = json.find("depth_threshold_m"))
-    source.depth_threshold_m = threshold->number(1e-6, 1000.0);
+  json.optional("depth_threshold_m", source.depth_threshold_m, numberIn(1e-6, 1000.0));
   source.state = readPartState(json);
-  if (const auto albedo = json.find("albedo")) source.albedo = albedo->number(0.0, 1.0);
+  json.optional("albedo", source.albedo, numberIn(0.0, 1.0));
   return source;
 }
 
@@ -106,26 +118,22 @@ std::vector<PartSource> readParts(const JsonReader& json, Dataset& dataset) {
 /// Discrete ones as transforms, turns as axis and a point on it, metres, station frame.
 Symmetries readStationSymmetries(const JsonReader& json, Dataset& dataset) {
   Symmetries symmetries;
-  if (const auto list = json.find("discrete"))
-    for (const JsonReader& item : list->elements())
-      symmetries.discrete.push_back(readNotedTransform(item, dataset));
-  if (const auto list = json.find("continuous"))
-    for (const JsonReader& item : list->elements())
-      symmetries.continuous.push_back(readAxisSymmetry(item, "point_m", 1.0));
+  const auto readPose = [&](const JsonReader& item) { return readNotedTransform(item, dataset); };
+  const auto readAxis = [](const JsonReader& item) {
+    return readAxisSymmetry(item, "point_m", 1.0);
+  };
+  json.optional("discrete", symmetries.discrete, listOf(plainCodec(readPose)));
+  json.optional("continuous", symmetries.continuous, listOf(plainCodec(readAxis)));
   if (symmetries.empty()) json.fail("has neither 'discrete' nor 'continuous' symmetries");
   return symmetries;
 }
 
-Station readStation(const std::string& id, const JsonReader& json, Dataset& dataset) {
+Station readStation(const JsonReader& json, Dataset& dataset) {
   Station station;
-  station.id = id;
   station.parts = readParts(json, dataset);
-  if (const auto size = json.find("feature_size_m"))
-    station.feature_size_m = size->number(1e-6, kMaxFeatureSize_m);
-  if (const auto sigma = json.find("mesh_scale_sigma"))
-    station.mesh_scale_sigma = readMeshScaleSigma(*sigma);
-  if (const auto uncertainty = json.find("uncertainty"))
-    station.uncertainty = readUncertainty(*uncertainty);
+  json.optional("feature_size_m", station.feature_size_m, numberIn(1e-6, kMaxFeatureSize_m));
+  json.optional("mesh_scale_sigma", station.mesh_scale_sigma, numberIn(0.0, kMaxScaleSigma));
+  json.optional("uncertainty", station.uncertainty, readUncertainty);
   if (const auto transform = json.find("camera_from_end_effector"))
     station.camera_from_end_effector = readNotedTransform(*transform, dataset);
   if (const auto symmetries = json.find("symmetries"))
@@ -142,10 +150,7 @@ std::string readReference(const JsonReader& json, const Map& known, const char* 
 }
 
 void readPoses(const JsonReader& json, Case& dataset_case, Dataset& dataset) {
-  PoseFrames frames{std::nullopt, dataset.transforms};
-  if (const auto known = dataset.camera_references.find(dataset_case.camera);
-      known != dataset.camera_references.end())
-    frames.reference = known->second;
+  const PoseFrames frames{dataset.cameras.at(dataset_case.camera).reference, dataset.transforms};
   const auto read = [&](const JsonReader& pose_json) {
     PoseFile pose = readPose(pose_json, frames);
     const std::string note = projectionNote(pose.rotation_deviation);
@@ -170,22 +175,13 @@ void readPoses(const JsonReader& json, Case& dataset_case, Dataset& dataset) {
 /// What a case may override, and what holds for it otherwise.
 void readOverrides(const JsonReader& json, const Station& station, Case& dataset_case,
                    Dataset& dataset) {
-  if (const auto uncertainty = json.find("uncertainty"))
-    dataset_case.uncertainty = readUncertainty(*uncertainty);
+  json.optional("uncertainty", dataset_case.uncertainty, readUncertainty);
   if (!dataset_case.uncertainty) dataset_case.uncertainty = station.uncertainty;
   dataset_case.requirement = dataset.requirement;
-  if (const auto requirement = json.find("requirement"))
-    dataset_case.requirement = readRequirement(*requirement);
+  json.optional("requirement", dataset_case.requirement, readRequirement);
   dataset_case.camera_from_end_effector = station.camera_from_end_effector;
   if (const auto transform = json.find("camera_from_end_effector"))
     dataset_case.camera_from_end_effector = readNotedTransform(*transform, dataset);
-}
-
-void addCamera(const std::string& id, const CameraFile& camera, Dataset& dataset) {
-  dataset.cameras.emplace(id, camera.camera);
-  if (camera.reference) dataset.camera_references.emplace(id, *camera.reference);
-  if (camera.calibration_sigma) dataset.calibration_sigmas.emplace(id, *camera.calibration_sigma);
-  if (camera.covariance) dataset.camera_covariances.emplace(id, *camera.covariance);
 }
 
 /// One of the data set's cameras, or that of the image's own label.
@@ -197,7 +193,7 @@ std::string readCaseCamera(const JsonReader& json, const Case& dataset_case, Dat
   const std::string id = "label of " + dataset_case.id;
   if (dataset.cameras.contains(id))
     json.failMember("camera", "missing, and there is a camera called '" + id + "'");
-  addCamera(id, readLabelCamera(dataset_case.image), dataset);
+  dataset.cameras.emplace(id, readCameraFile(dataset_case.image));
   return id;
 }
 
@@ -218,7 +214,8 @@ void readState(const JsonReader& json, const Station& station, Case& dataset_cas
 void requireScene(const JsonReader& json, const Dataset& dataset, const Case& dataset_case,
                   const JsonReader& stations) {
   const std::vector<PartSource> parts = partsOf(dataset, dataset_case);
-  if (!anyMatched(parts)) json.fail("no part of its station is matched: check 'state' and 'present'");
+  if (!anyMatched(parts))
+    json.fail("no part of its station is matched: check 'state' and 'present'");
   const auto moves = [](const PartSource& part) { return part.frame != kStationFrame; };
   if (std::none_of(parts.begin(), parts.end(), moves)) return;
   const FrameTree frames = framesOf(dataset, dataset_case);
@@ -242,24 +239,22 @@ Case readCase(const JsonReader& json, Dataset& dataset) {
   const Station& station = dataset.stations.at(dataset_case.station);
   readOverrides(json, station, dataset_case, dataset);
   if (const auto state = json.find("state")) readState(*state, station, dataset_case);
-  if (const auto tags = json.find("tags"))
-    for (const JsonReader& tag : tags->elements()) dataset_case.tags.push_back(tag.nonEmptyText());
+  json.optional("tags", dataset_case.tags, listOf(kNonEmptyText));
   return dataset_case;
 }
 
 Dataset readMembers(const JsonReader& json) {
   Dataset dataset;
-  if (const auto requirement = json.find("requirement"))
-    dataset.requirement = readRequirement(*requirement);
+  json.optional("requirement", dataset.requirement, readRequirement);
   for (const auto& [id, station] : json.at("stations").members())
-    dataset.stations.emplace(id, readStation(id, station, dataset));
+    dataset.stations.emplace(id, readStation(station, dataset));
   if (const auto transforms = json.find("transforms"))
     for (const JsonReader& item : transforms->elements())
       for (FrameTransform& transform : readFrameTransforms(item.path()))
         dataset.transforms.push_back(std::move(transform));
   if (const auto cameras = json.find("cameras"))
     for (const auto& [id, camera] : cameras->members())
-      addCamera(id, readCameraFile(camera), dataset);
+      dataset.cameras.emplace(id, readCameraFile(camera));
   std::set<std::string> ids;
   for (const JsonReader& item : json.at("cases").elements()) {
     dataset.cases.push_back(readCase(item, dataset));
@@ -281,26 +276,13 @@ void requireFile(const Dataset& dataset, const std::string& place,
 
 }  // namespace
 
-AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
-                              double units_per_metre) {
-  AxisSymmetry symmetry;
-  symmetry.axis = json.at("axis").vector3();
-  const double length = symmetry.axis.norm();
-  if (!(length > 1e-9)) json.failMember("axis", "has no direction");
-  symmetry.axis /= length;
-  if (const auto point = json.find(point_key))
-    symmetry.point_m = point->vector3() / units_per_metre;
-  return symmetry;
-}
-
 Symmetries readBopSymmetries(const JsonReader& model) {
   Symmetries symmetries;
-  if (const auto list = model.find("symmetries_discrete"))
-    for (const JsonReader& item : list->elements())
-      symmetries.discrete.push_back(readDiscrete(item));
-  if (const auto list = model.find("symmetries_continuous"))
-    for (const JsonReader& item : list->elements())
-      symmetries.continuous.push_back(readAxisSymmetry(item, "offset", kMillimetres));
+  const auto readAxis = [](const JsonReader& item) {
+    return readAxisSymmetry(item, "offset", kMillimetres);
+  };
+  model.optional("symmetries_discrete", symmetries.discrete, listOf(plainCodec(readDiscrete)));
+  model.optional("symmetries_continuous", symmetries.continuous, listOf(plainCodec(readAxis)));
   return symmetries;
 }
 
@@ -312,11 +294,7 @@ Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad) {
 }
 
 FrameTree framesOf(const Dataset& dataset, const Case& dataset_case) {
-  std::optional<CameraReference> reference;
-  if (const auto known = dataset.camera_references.find(dataset_case.camera);
-      known != dataset.camera_references.end())
-    reference = known->second;
-  return frameTree(reference, dataset.transforms);
+  return frameTree(dataset.cameras.at(dataset_case.camera).reference, dataset.transforms);
 }
 
 std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case) {
@@ -326,26 +304,14 @@ std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case
   return parts;
 }
 
-namespace {
-
-[[noreturn]] void refusePart(const Dataset& dataset, const std::string& name) {
-  std::set<std::string> names;
-  for (const auto& [id, station] : dataset.stations)
-    for (const PartSource& part : station.parts) names.insert(partName(part));
-  std::string known;
-  for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-  throw InputError(dataset.file, "stations",
-                   "no station has a part '" + name + "'; there are: " + known);
-}
-
-}  // namespace
-
 Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes) {
   for (const PartChange& change : changes) {
     bool known = false;
+    std::set<std::string> names;
     for (auto& [id, station] : dataset.stations) {
       const std::string place = "stations." + id + ".parts";
       const auto named = [&](const PartSource& part) { return partName(part) == change.part; };
+      for (const PartSource& part : station.parts) names.insert(partName(part));
       if (std::none_of(station.parts.begin(), station.parts.end(), named)) continue;
       known = true;
       const std::size_t part = partOfName(station.parts, change.part, dataset.file, place);
@@ -361,21 +327,21 @@ Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes) 
         if (dataset_case.station == id && !dataset_case.part_states.empty())
           set(dataset_case.part_states[part]);
     }
-    if (!known) refusePart(dataset, change.part);
+    if (!known)
+      throw InputError(dataset.file, "stations",
+                       "no station has a part '" + change.part +
+                           "'; there are: " + joined({names.begin(), names.end()}));
     dataset.sha256 = sha256Text(dataset.sha256 + change.part + "=" + change.state);
   }
   for (const Case& dataset_case : dataset.cases) {
     const std::vector<PartSource> parts = partsOf(dataset, dataset_case);
     if (!anyMatched(parts))
-      throw InputError(dataset.file, "cases." + dataset_case.id, "no part of its station is matched");
+      throw InputError(dataset.file, "cases." + dataset_case.id,
+                       "no part of its station is matched");
     const FrameTree frames = framesOf(dataset, dataset_case);
     for (const PartSource& part : parts) (void)placedPart(part, frames);
   }
   return dataset;
-}
-
-bool Case::hasTag(const std::string& tag) const {
-  return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
 const Case* Dataset::findCase(const std::string& id) const {
@@ -426,22 +392,16 @@ void requireFiles(const Dataset& dataset) {
 
 GrayImage readCaseImage(const Dataset& dataset, const Case& dataset_case) {
   GrayImage image = readImage(dataset_case.image);
-  requireSameSize(image, dataset.cameras.at(dataset_case.camera));
-  requireField(dataset.file, "cameras." + dataset_case.camera,
-               dataset.cameras.at(dataset_case.camera));
+  const Camera& camera = dataset.cameraOf(dataset_case);
+  requireSameSize(image, camera);
+  requireField(dataset.file, "cameras." + dataset_case.camera, camera);
   return image;
 }
 
 std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& dataset_case) {
   if (!dataset_case.ignore) return std::nullopt;
-  const Camera& camera = dataset.cameras.at(dataset_case.camera);
+  const Camera& camera = dataset.cameraOf(dataset_case);
   return readIgnoreMask(*dataset_case.ignore, camera.width, camera.height);
-}
-
-SceneMesh readStationScene(const Station& station) { return readScene(station.parts); }
-
-SceneMesh readCaseScene(const Dataset& dataset, const Case& dataset_case) {
-  return readScene(partsOf(dataset, dataset_case), framesOf(dataset, dataset_case));
 }
 
 }  // namespace boresight::sessions

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -33,10 +34,6 @@ struct Symmetries {
   bool empty() const { return discrete.empty() && continuous.empty(); }
 };
 
-/// `axis` (of any length, station frame) and, under `point_key`, a point on it; InputError.
-AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
-                              double units_per_metre);
-
 /// `symmetries_discrete` (16 numbers each, row by row) and `symmetries_continuous` (axis, offset)
 /// of an entry of BOP's models_info.json, millimetres. InputError.
 Symmetries readBopSymmetries(const JsonReader& model);
@@ -55,7 +52,6 @@ struct Requirement {
 };
 
 struct Station {
-  std::string id;
   std::vector<PartSource> parts;  ///< at least one
   std::optional<double> feature_size_m;
   std::optional<double> mesh_scale_sigma;  ///< relative, one sigma
@@ -102,7 +98,7 @@ struct Case {
   std::vector<PartState> part_states = {};  ///< one per part of the station; empty: the station's
   std::optional<BopKey> bop = {};
 
-  bool hasTag(const std::string& tag) const;
+  bool hasTag(const std::string& tag) const { return std::ranges::count(tags, tag) > 0; }
 };
 
 /// dataset.json (`boresight-dataset`, version 1), checked whole; images and meshes are read later.
@@ -111,14 +107,14 @@ struct Dataset {
   std::string sha256;  ///< of the file, or of the selection of a folder
   std::optional<Requirement> requirement;
   std::map<std::string, Station> stations;
-  std::map<std::string, Camera> cameras;
-  std::map<std::string, CameraReference> camera_references;    ///< of those that have one
-  std::map<std::string, CalibrationSigma> calibration_sigmas;  ///< of those that state one
-  std::map<std::string, CameraCovariance> camera_covariances;  ///< of those that state one
+  std::map<std::string, CameraFile> cameras;
   std::vector<FrameTransform> transforms;  ///< between frames of camera models and of poses
   std::vector<Case> cases;
   std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations
 
+  const Camera& cameraOf(const Case& dataset_case) const {
+    return cameras.at(dataset_case.camera).camera;
+  }
   /// nullptr when no case has this id.
   const Case* findCase(const std::string& id) const;
 };
@@ -138,15 +134,11 @@ nlohmann::ordered_json toJson(const Requirement& requirement);
 GrayImage readCaseImage(const Dataset& dataset, const Case& dataset_case);
 /// Empty when the case has no mask.
 std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& dataset_case);
-/// The scene of a station in its default state; all parts are placed in STATION or CAMERA.
-SceneMesh readStationScene(const Station& station);
 
 /// The frames that a case's poses and parts may be given in.
 FrameTree framesOf(const Dataset& dataset, const Case& dataset_case);
 /// The parts of a case's station in the state that they have in the case.
 std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case);
-/// The scene of a case.
-SceneMesh readCaseScene(const Dataset& dataset, const Case& dataset_case);
 
 /// A change of a part's state; see changedState.
 struct PartChange {

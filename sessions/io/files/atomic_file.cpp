@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -74,11 +75,10 @@ class OpenFile {
   void setMode(mode_t mode) const {
     if (::fchmod(descriptor_, mode & 07777) != 0) fail(reported_, errno);
   }
-  void sync() const {
+  /// Waits until the bytes are stored, and closes.
+  void finish() {
     // Pipes and some devices cannot be synchronized; that is no failure to write.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(reported_, errno);
-  }
-  void close() {
     const int result = ::close(std::exchange(descriptor_, -1));
     if (result != 0 && errno != EINTR) fail(reported_, errno);
   }
@@ -113,32 +113,43 @@ void syncFolder(const fs::path& folder) {
   ::close(descriptor);
 }
 
+/// The file that is created or replaced.
+struct Target {
+  fs::path file;               ///< not a link
+  std::optional<mode_t> mode;  ///< of a file that exists
+
+  bool isDevice() const { return mode && !S_ISREG(*mode); }
+};
+
+Target targetOf(const fs::path& file, FileUse use) {
+  if (file.empty()) throw OutputError("(no name)", "a file name is empty");
+  requireNoInput(file, use);
+  Target target{linkTarget(file), std::nullopt};
+  struct stat existing {};
+  if (::stat(target.file.c_str(), &existing) != 0) return target;
+  if (S_ISDIR(existing.st_mode)) fail(file, EISDIR);
+  // Renaming would replace a write-protected file, which only asks the folder.
+  if (::access(target.file.c_str(), W_OK) != 0) fail(file, errno);
+  target.mode = existing.st_mode;
+  return target;
+}
+
 }  // namespace
 
 void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
-  if (file.empty()) throw OutputError("(no name)", "a file name is empty");
-  requireNoInput(file, use);
-  const fs::path target = linkTarget(file);
-  struct stat existing {};
-  const bool exists = ::stat(target.c_str(), &existing) == 0;
-  if (exists && S_ISDIR(existing.st_mode)) fail(file, EISDIR);
-  // Renaming would replace a write-protected file, which only asks the folder.
-  if (exists && ::access(target.c_str(), W_OK) != 0) fail(file, errno);
-  if (exists && !S_ISREG(existing.st_mode)) {
-    OpenFile device(file, target, 0, false);
+  const Target target = targetOf(file, use);
+  if (target.isDevice()) {
+    OpenFile device(file, target.file, 0, false);
     device.write(bytes);
-    device.sync();
-    device.close();
-    return;
+    return device.finish();
   }
-  OpenFile temporary(file, temporaryName(target), O_CREAT | O_EXCL, true);
+  OpenFile temporary(file, temporaryName(target.file), O_CREAT | O_EXCL, true);
   temporary.write(bytes);
-  if (exists) temporary.setMode(existing.st_mode);
-  temporary.sync();
-  temporary.close();
-  temporary.renameTo(target);
-  syncFolder(folderOf(target));
-  noteOutput(target, use);
+  if (target.mode) temporary.setMode(*target.mode);
+  temporary.finish();
+  temporary.renameTo(target.file);
+  syncFolder(folderOf(target.file));
+  noteOutput(target.file, use);
 }
 
 void writeFileAtomically(const fs::path& file, std::string_view text, FileUse use) {
@@ -160,16 +171,10 @@ void moveIntoPlace(const fs::path& finished, const fs::path& file, FileUse use) 
 }
 
 void requireWritable(const fs::path& file, FileUse use) {
-  if (file.empty()) throw OutputError("(no name)", "a file name is empty");
-  requireNoInput(file, use);
-  const fs::path target = linkTarget(file);
+  const Target target = targetOf(file, use);
+  if (target.isDevice()) return;
+  const fs::path folder = folderOf(target.file);
   struct stat info {};
-  if (::stat(target.c_str(), &info) == 0) {
-    if (S_ISDIR(info.st_mode)) fail(file, EISDIR);
-    if (::access(target.c_str(), W_OK) != 0) fail(file, errno);
-    if (!S_ISREG(info.st_mode)) return;
-  }
-  const fs::path folder = folderOf(target);
   if (::stat(folder.c_str(), &info) != 0) fail(file, errno);
   if (!S_ISDIR(info.st_mode)) fail(file, ENOTDIR);
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(file, errno);

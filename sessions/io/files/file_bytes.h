@@ -24,8 +24,8 @@ enum class FileUse {
   kLandmarks
 };
 
-/// Remembers that `file` was read, or that a file which was read names it as an input. A file with
-/// two uses counts as an input. Files that are not regular are not remembered.
+/// Remembers a file that was read, or that another file names as its input. A file with two uses
+/// counts as an input. Files that are not regular are not remembered.
 void noteInput(const std::filesystem::path& file, FileUse use = FileUse::kInput);
 
 /// Remembers that this process has written `output`: it may be written again, also after being

@@ -107,39 +107,29 @@ FileLock::FileLock(const fs::path& lock_file) : file_(lock_file) {
 bool FileLock::take() {
   const int descriptor = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) throw OutputError(file_, std::strerror(errno));
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    if (errno == EWOULDBLOCK)
-      other_ = readLockFile(file_);
-    else
-      judgeWithoutFlock(descriptor);
-    if (!held()) ::close(descriptor);
-    return true;
-  }
-  if (!isStillNamed(descriptor, file_)) {
+  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  const bool refused = !locked && errno == EWOULDBLOCK;
+  if (locked && !isStillNamed(descriptor, file_)) {
     ::close(descriptor);
     return false;
   }
-  stale_ = readLockFile(file_);
-  if (!writeHolder(descriptor)) {
-    const int error = errno;
-    ::unlink(file_.c_str());
+  const std::optional<LockHolder> named = readLockFile(file_);
+  // On a file system without flock the holder that the file names decides.
+  if (refused || (!locked && named && !hasEnded(*named))) {
     ::close(descriptor);
-    throw OutputError(file_,
-                      error == ENOSPC ? "no space left on the device" : std::strerror(error));
+    other_ = named;
+    return true;
   }
-  descriptor_ = descriptor;
-  return true;
-}
-
-/// A file system without flock: what the file says decides.
-void FileLock::judgeWithoutFlock(int descriptor) {
-  const std::optional<LockHolder> holder = readLockFile(file_);
-  if (holder && !hasEnded(*holder)) {
-    other_ = holder;
-    return;
+  stale_ = named;
+  if (writeHolder(descriptor)) {
+    descriptor_ = descriptor;
+    return true;
   }
-  stale_ = holder;
-  if (writeHolder(descriptor)) descriptor_ = descriptor;
+  const int error = errno;
+  if (locked) ::unlink(file_.c_str());
+  ::close(descriptor);
+  if (!locked) return true;
+  throw OutputError(file_, error == ENOSPC ? "no space left on the device" : std::strerror(error));
 }
 
 FileLock::~FileLock() {

@@ -40,7 +40,6 @@ class FileLock {
 
  private:
   bool take();
-  void judgeWithoutFlock(int descriptor);
 
   std::filesystem::path file_;
   int descriptor_ = -1;

@@ -9,7 +9,10 @@ namespace boresight::sessions {
 
 CameraFile readCameraFile(const std::filesystem::path& file) {
   if (isCahvorFile(file)) return readCahvorCamera(file);
-  return hasImageLabel(file) ? readLabelCamera(file) : readCameraJson(file);
+  if (!hasImageLabel(file)) return readCameraJson(file);
+  const ImageLabel label = readImageLabel(file);
+  if (!label.camera) throw InputError(file, label.camera_remark);
+  return *label.camera;
 }
 
 Camera readCamera(const std::filesystem::path& file) { return readCameraFile(file).camera; }

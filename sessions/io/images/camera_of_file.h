@@ -14,8 +14,8 @@ CameraFile readCameraFile(const std::filesystem::path& file);
 /// The camera alone, without its reference frame.
 Camera readCamera(const std::filesystem::path& file);
 
-/// The camera of `camera_file`, or where that is empty of the image's own label. InputError, also
-/// when there is neither.
+/// The camera of `camera_file` or, where that name is empty, of the image's own label. InputError,
+/// also when there is neither.
 CameraFile readChosenCamera(const std::filesystem::path& camera_file,
                             const std::filesystem::path& image);
 

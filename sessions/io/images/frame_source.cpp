@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <set>
 #include <sstream>
-#include <string_view>
+#include <utility>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
@@ -19,34 +18,21 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxListBytes = 64 * kMegabyte;
 
-constexpr std::string_view kDigits = "0123456789";
-
-/// The digits from `at` on without leading zeros; moves `at` behind them.
-std::string numberAt(const std::string& text, std::size_t& at) {
-  const std::size_t begin = std::min(text.find_first_not_of('0', at), text.size());
-  at = std::min(text.find_first_not_of(kDigits, begin), text.size());
-  return text.substr(begin, at - begin);
-}
-
-/// Whether the first name comes before the second one, numbers in them by value.
-bool comesBefore(const std::string& first, const std::string& second) {
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < first.size() && j < second.size()) {
-    if (kDigits.find(first[i]) != kDigits.npos && kDigits.find(second[j]) != kDigits.npos) {
-      const std::string one = numberAt(first, i);
-      const std::string other = numberAt(second, j);
-      if (one.size() != other.size()) return one.size() < other.size();
-      if (one != other) return one < other;
-    } else {
-      if (first[i] != second[j]) return first[i] < second[j];
-      ++i;
-      ++j;
+/// The name with its numbers filled up with zeros, for sorting by their values.
+std::string sortKey(const std::string& name) {
+  constexpr std::size_t kLongestName = 255;
+  std::string key;
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t end = std::min(name.find_first_not_of("0123456789", at), name.size());
+    if (end == at) {
+      key += name[at++];
+      continue;
     }
+    key.append(kLongestName - std::min(kLongestName, end - at), '0');
+    key.append(name, at, end - at);
+    at = end;
   }
-  const std::size_t left = first.size() - i;
-  const std::size_t right = second.size() - j;
-  return left != right ? left < right : first < second;
+  return key;
 }
 
 bool isImageName(const fs::path& file) {
@@ -66,8 +52,11 @@ std::vector<fs::path> filesOfFolder(const fs::path& folder) {
     throw InputError(folder,
                      "has no image; images end in .png, .jpg, .jpeg, .tif, .tiff, .img or "
                      ".vic");
-  std::sort(files.begin(), files.end(), [](const fs::path& first, const fs::path& second) {
-    return comesBefore(first.filename().string(), second.filename().string());
+  const auto key = [](const fs::path& file) {
+    return std::pair(sortKey(file.filename().string()), file);
+  };
+  std::sort(files.begin(), files.end(), [&key](const fs::path& first, const fs::path& second) {
+    return key(first) < key(second);
   });
   return files;
 }
@@ -82,8 +71,7 @@ std::vector<fs::path> filesOfList(const fs::path& list) {
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
-    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0)
-      line.pop_back();
+    line.resize(line.find_last_not_of(" \t\r\n\v\f") + 1);
     if (line.empty() || line.front() == '#') continue;
     files.push_back(list.parent_path() / line);
     if (!known.insert(files.back().lexically_normal()).second)

@@ -22,7 +22,7 @@ struct Frame {
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  /// Number of frames; of a video as its file states it, 0 where it states none.
+  /// Number of frames; for a video the number that its file states, or 0.
   virtual std::int64_t count() const = 0;
   /// The next frame; empty after the last one.
   virtual std::optional<Frame> next() = 0;

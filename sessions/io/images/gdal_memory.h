@@ -9,7 +9,6 @@
 #include <mutex>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <cpl_conv.h>
@@ -25,21 +24,9 @@ namespace boresight::sessions {
 /// Keeps GDAL's messages of this thread off stderr; the destructor restores GDAL's settings.
 class GdalQuiet {
  public:
-  explicit GdalQuiet(bool vicar_in_pds3 = false) {
-    CPLPushErrorHandlerEx(keepMessage, this);
-    set("GDAL_PAM_ENABLED", "NO");
-    set("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
-    set("GDAL_ENABLE_TIFF_SPLIT", "NO");  // strips stay those of the file
-    set("GDAL_TRY_PDS3_WITH_VICAR", vicar_in_pds3 ? "YES" : "NO");
-  }
-  GdalQuiet(const GdalQuiet&) = delete;
-  GdalQuiet& operator=(const GdalQuiet&) = delete;
-  ~GdalQuiet() {
-    for (const auto& [key, before] : settings_)
-      CPLSetThreadLocalConfigOption(key, before.empty() ? nullptr : before.c_str());
-    CPLPopErrorHandler();
-    CPLErrorReset();
-  }
+  explicit GdalQuiet(bool vicar_in_pds3 = false)
+      : vicar_in_pds3_("GDAL_TRY_PDS3_WITH_VICAR", vicar_in_pds3 ? "YES" : "NO", false) {}
+  ~GdalQuiet() { CPLErrorReset(); }
   const std::string& failure() const { return failure_; }  ///< the first one
   const std::string& warning() const { return warning_; }  ///< the first one
 
@@ -49,14 +36,13 @@ class GdalQuiet {
     std::string& kept = kind >= CE_Failure ? self.failure_ : self.warning_;
     if (kind >= CE_Warning && kept.empty()) kept = message;
   }
-  void set(const char* key, const char* value) {
-    const char* before = CPLGetThreadLocalConfigOption(key, nullptr);
-    settings_.emplace_back(key, before != nullptr ? before : "");
-    CPLSetThreadLocalConfigOption(key, value);
-  }
 
   std::string failure_, warning_;
-  std::vector<std::pair<const char*, std::string>> settings_;
+  CPLErrorHandlerPusher handler_{keepMessage, this};
+  CPLConfigOptionSetter side_files_{"GDAL_PAM_ENABLED", "NO", false};
+  CPLConfigOptionSetter folders_{"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false};
+  CPLConfigOptionSetter strips_{"GDAL_ENABLE_TIFF_SPLIT", "NO", false};  ///< as in the file
+  CPLConfigOptionSetter vicar_in_pds3_;
 };
 
 /// Files in GDAL's memory, in a separate folder. The bytes must outlive them.

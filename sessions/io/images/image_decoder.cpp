@@ -16,9 +16,9 @@ namespace {
 using namespace std::string_view_literals;
 using Bytes = std::span<const std::uint8_t>;
 
-[[noreturn]] void refuse(const std::filesystem::path& file, ImageContainer container,
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& container,
                          const std::string& why) {
-  throw InputError(file, std::string("the ") + imageContainerName(container) + " image " + why);
+  throw InputError(file, "the " + container + " image " + why);
 }
 
 /// Where the last marker of a JPEG is, after its scans: segments before them may hold a thumbnail
@@ -31,33 +31,27 @@ std::size_t endOfJpeg(Bytes bytes) {
   return asText(bytes).find("\xff\xd9"sv, at);
 }
 
-/// By the signature at the beginning. Decoders accept files that lack their end: it is looked for
-/// here.
-ImageContainer containerOf(const std::filesystem::path& file, Bytes bytes) {
-  const std::string_view text = asText(bytes);
-  if (text.starts_with("\x89PNG")) {
-    if (text.find("IEND\xae\x42\x60\x82") == std::string_view::npos)
-      refuse(file, ImageContainer::kPng, "is truncated");
-    return ImageContainer::kPng;
-  }
-  if (text.starts_with("\xff\xd8\xff")) {
-    if (endOfJpeg(bytes) == std::string_view::npos)
-      refuse(file, ImageContainer::kJpeg, "is truncated");
-    return ImageContainer::kJpeg;
-  }
-  for (const std::string_view begin : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv})
-    if (text.starts_with(begin)) return ImageContainer::kTiff;
-  throw InputError(file,
-                   "not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
-                   "in it or next to it");
+/// Decoders accept files that lack their end: it is looked for here.
+std::string wholeContainerOf(const std::filesystem::path& file, Bytes bytes) {
+  const char* known = imageContainerOf(bytes);
+  if (known == nullptr)
+    throw InputError(file,
+                     "not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
+                     "in it or next to it");
+  const std::string container = known;
+  const std::size_t end = container == "PNG"    ? asText(bytes).find("IEND\xae\x42\x60\x82")
+                          : container == "JPEG" ? endOfJpeg(bytes)
+                                                : 0;
+  if (end == std::string_view::npos) refuse(file, container, "is truncated");
+  return container;
 }
 
 /// The orientation 1 .. 8 that a TIFF or an Exif block, which is one, states in its first
 /// directory; 1 where it states none.
-int orientationOf(ImageContainer container, Bytes bytes) {
-  const std::string_view mark = container == ImageContainer::kPng    ? "eXIf"sv
-                                : container == ImageContainer::kJpeg ? "Exif\0\0"sv
-                                                                     : ""sv;
+int orientationOf(const std::string& container, Bytes bytes) {
+  const std::string_view mark = container == "PNG"    ? "eXIf"sv
+                                : container == "JPEG" ? "Exif\0\0"sv
+                                                      : ""sv;
   const auto at = asText(bytes).find(mark);
   if (at == std::string_view::npos) return 1;
   const Bytes block = bytes.subspan(at + mark.size());
@@ -83,9 +77,9 @@ int orientationOf(ImageContainer container, Bytes bytes) {
 class OpenImage {
  public:
   OpenImage(const std::filesystem::path& file, Bytes bytes) : file_(file) {
-    header_.container = containerOf(file, bytes);
-    constexpr const char* kDrivers[] = {"PNG", "JPEG", "GTiff"};  // by ImageContainer
-    dataset_ = openGdal(kDrivers[static_cast<int>(header_.container)], memory_.add("image", bytes));
+    header_.container = wholeContainerOf(file, bytes);
+    const std::string driver = header_.container == "TIFF" ? "GTiff" : header_.container;
+    dataset_ = openGdal(driver.c_str(), memory_.add("image", bytes));
     if (!dataset_) fail("is truncated, damaged, or of an unsupported kind");
     header_.width = dataset_->GetRasterXSize();
     header_.height = dataset_->GetRasterYSize();
@@ -154,7 +148,7 @@ class OpenImage {
 
   /// GDAL takes strips and tiles that a TIFF does not have for zeros.
   void requireEveryBlock() const {
-    if (header_.container != ImageContainer::kTiff) return;
+    if (header_.container != "TIFF") return;
     int width = 0, height = 0;
     band(1).GetBlockSize(&width, &height);
     for (int y = 0; y * height < header_.height; ++y)
@@ -224,14 +218,18 @@ void requireImageSize(const std::filesystem::path& file, std::int64_t width, std
   const auto in_range = [](std::int64_t side) { return side >= 1 && side <= kMaxImageSide_px; };
   if (!in_range(width) || !in_range(height) || width * height > kMaxImagePixels)
     throw InputError(file, "image size",
-                     std::to_string(width) + " x " + std::to_string(height) +
-                         " is outside the limits (sides 1 .. " + std::to_string(kMaxImageSide_px) +
-                         " px, at most " + std::to_string(kMaxImagePixels) + " px in all)");
+                     sizeText(width, height) + " is outside the limits (sides 1 .. " +
+                         std::to_string(kMaxImageSide_px) + " px, at most " +
+                         std::to_string(kMaxImagePixels) + " px in all)");
 }
 
-const char* imageContainerName(ImageContainer container) {
-  constexpr const char* kNames[] = {"PNG", "JPEG", "TIFF"};
-  return kNames[static_cast<int>(container)];
+const char* imageContainerOf(Bytes bytes) {
+  const std::string_view text = asText(bytes);
+  if (text.starts_with("\x89PNG")) return "PNG";
+  if (text.starts_with("\xff\xd8\xff")) return "JPEG";
+  for (const std::string_view begin : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv})
+    if (text.starts_with(begin)) return "TIFF";
+  return nullptr;
 }
 
 ImageHeader readImageHeader(const std::filesystem::path& file, Bytes bytes) {
@@ -240,13 +238,13 @@ ImageHeader readImageHeader(const std::filesystem::path& file, Bytes bytes) {
 
 DecodedImage decodeImage(const std::filesystem::path& file, Bytes bytes) {
   OpenImage open(file, bytes);
-  DecodedImage decoded{open.header(), open.pixels(), {}};
-  if (const int stated = orientationOf(decoded.header.container, bytes); stated != 1)
+  DecodedImage decoded{open.header().container, open.pixels(), {}};
+  if (const int stated = orientationOf(decoded.container, bytes); stated != 1)
     decoded.notes.push_back("EXIF orientation " + std::to_string(stated) +
                             " is not applied: pixels are used as they are stored");
   if (open.hasFurtherPages())
     decoded.notes.push_back("the file holds further images (pages): only the first is read");
-  if (decoded.header.container == ImageContainer::kJpeg)
+  if (decoded.container == "JPEG")
     if (const std::string damage = damageOfJpeg(file, bytes, open.warning()); !damage.empty())
       decoded.notes.push_back("the image may be damaged: " + damage);
   return decoded;

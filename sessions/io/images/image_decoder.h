@@ -15,13 +15,12 @@ namespace boresight::sessions {
 /// allow.
 void requireImageSize(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
 
-enum class ImageContainer { kPng, kJpeg, kTiff };
-
-const char* imageContainerName(ImageContainer container);
+/// "PNG", "JPEG" or "TIFF" by the signature that the bytes begin with; nullptr for other files.
+const char* imageContainerOf(std::span<const std::uint8_t> bytes);
 
 struct ImageHeader {
-  ImageContainer container = ImageContainer::kPng;
-  int width = 0;  ///< of the file's first image
+  std::string container;  ///< as of imageContainerOf
+  int width = 0;          ///< of the file's first image
   int height = 0;
 };
 
@@ -29,7 +28,7 @@ struct ImageHeader {
 ImageHeader readImageHeader(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 struct DecodedImage {
-  ImageHeader header;
+  std::string container;  ///< as of imageContainerOf
   /// 8 or 16 bits; gray, gray and alpha, BGR or BGRA; lines and samples as they are stored.
   cv::Mat pixels;
   /// For the operator: an orientation that is not applied, further pages, damage.

@@ -19,7 +19,8 @@ namespace boresight::sessions {
 struct ImageLabel;
 
 inline constexpr std::size_t kMaxImageFileBytes = 1024 * kMegabyte;
-/// Sides are bounded by kMaxImageSide_px, so this also bounds memory (134 million pixels).
+/// Most pixels of an image (134 million), to bound memory; its sides have a limit of their own,
+/// kMaxImageSide_px.
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 
 /// Samples that are mapped to 0 and 255: linearly between them, clamped beyond.
@@ -37,8 +38,8 @@ inline constexpr const char* kBayerPatternNames[] = {"rggb", "bggr", "grbg", "gb
 std::optional<BayerPattern> bayerPatternNamed(std::string_view name);
 
 struct ImageReadOptions {
-  /// Bits that the samples use, 1 .. 16, from a label or requested; by default those of the file (8
-  /// or 16).
+  /// Bits that the samples use, 1 .. 16. Empty: those that the label states, else those of the
+  /// file (8 or 16).
   std::optional<int> bit_depth;
   /// Instead of the linear rule: the 8-bit value of every sample 0 .. 2^n - 1; empty: linear.
   std::vector<std::uint8_t> table = {};
@@ -106,14 +107,11 @@ struct ImageSamples {
 ImageSamples readSamples(const std::filesystem::path& file,
                          const std::optional<BayerPattern>& bayer = {});
 
-/// The 8-bit values of the samples 0 .. 2^n - 1 by levels with 0 <= black < white <= 2^n - 1:
-/// floor((v - black) * 255 / (white - black) + 0.5), in integers.
+/// The 8-bit values of the samples 0 .. 2^n - 1 by levels with 0 <= black < white <= 2^n - 1, for
+/// n from 1 to 16: floor((v - black) * 255 / (white - black) + 0.5), in integers.
 std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n);
 
-/// The rule for one sample, in integers; v <= 2^n - 1, 1 <= n <= 16.
-std::uint8_t toEightBit(std::uint32_t v, int n);
-
-/// InputError naming both when the image is not of the camera's size.
+/// InputError with both sizes when the image is not of the camera's size.
 void requireSameSize(const GrayImage& image, const Camera& camera);
 
 /// Pixels to ignore, packed as the core requires.
@@ -125,9 +123,12 @@ struct IgnoreMask {
   std::int64_t ignored_count = 0;
   std::string file_sha256;
 
-  /// The core takes masks as `const BitImage*`; the words must not be written through this.
+  /// The core takes masks as `const BitImage*`; do not write to a constant mask through this.
   BitImage view() const;
 };
+
+/// No pixel ignored.
+IgnoreMask emptyMask(int width, int height);
 
 /// Reads a mask image of width x height (PNG or TIFF): a pixel is ignored where any channel but
 /// alpha is not zero. A JPEG is rejected, because its compression leaves stray nonzero pixels.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 A separate target (boresight_video): OpenCV's video library
-// loads some 60 others.
+// SPDX-License-Identifier: Apache-2.0
+// In a separate target (boresight_video), because OpenCV's video library loads some 60 others.
 #pragma once
 
 #include <filesystem>

@@ -17,10 +17,10 @@ constexpr const char* kConfigFormat = "boresight-config";
 constexpr int kConfigVersion = 1;
 
 OptionValue readValue(const JsonReader& json) {
-  if (json.isBoolean()) return json.boolean();
-  if (json.isInteger()) return json.integer();
-  if (json.isNumber()) return json.number();
-  if (json.isText()) return json.text();
+  if (json.value().is_boolean()) return json.boolean();
+  if (json.value().is_number_integer()) return json.integer();
+  if (json.value().is_number()) return json.number();
+  if (json.value().is_string()) return json.text();
   json.fail("not a number, true, false, or a name");
 }
 
@@ -65,8 +65,8 @@ Config readConfig(const std::filesystem::path& file) {
   return document.read(kConfigFormat, kConfigVersion, [&file](const JsonReader& json) {
     Config config;
     config.file = file;
-    if (const auto profile = json.find("profile")) config.profile = profile->nonEmptyText();
-    if (const auto options = json.find("options")) config.options = readOptions(*options);
+    json.optional("profile", config.profile, &JsonReader::nonEmptyText);
+    json.optional("options", config.options, readOptions);
     return config;
   });
 }

@@ -26,14 +26,6 @@ std::string PathWriter::operator()(const fs::path& file) const {
   return relative.empty() ? whole.string() : relative.string();
 }
 
-bool isUtcText(const std::string& text) {
-  constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
-  return text.size() == kForm.size() &&
-         std::equal(text.begin(), text.end(), kForm.begin(), [](char c, char form) {
-           return form == 'd' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
-         });
-}
-
 bool isSha256Text(const std::string& text) {
   return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
@@ -47,8 +39,13 @@ std::string readSha256(const JsonReader& json) {
 }
 
 std::string readTime(const JsonReader& json) {
+  constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
   std::string text = json.text();
-  if (!isUtcText(text)) json.fail("not a time like 2026-01-31T23:59:59Z");
+  const auto fits = [](char c, char form) {
+    return form == 'd' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
+  };
+  if (!std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(), fits))
+    json.fail("not a time like 2026-01-31T23:59:59Z");
   return text;
 }
 
@@ -65,10 +62,8 @@ std::string readRunStatus(const JsonReader& json) {
 
 ordered_json exactPoseJson(const Pose& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
-  ordered_json json;
-  json["rotation_wxyz"] = ordered_json::array({q.w(), q.x(), q.y(), q.z()});
-  json["translation_m"] = toJson(pose.translation_m);
-  return json;
+  return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation_m", toJson(pose.translation_m)}};
 }
 
 Pose readExactPose(const JsonReader& json) {

@@ -45,6 +45,8 @@ template <class Write, class Read>
 struct Codec {
   Write write;
   Read read;
+
+  auto operator()(const JsonReader& json) const { return read(json); }
 };
 template <class Write, class Read>
 Codec(Write, Read) -> Codec<Write, Read>;
@@ -194,7 +196,7 @@ class FieldReader {
   }
   template <class T, class Form>
   void optional(const char* key, T& value, const Form& codec) {
-    if (const auto found = json_.find(key)) value = codec.read(*found);
+    json_.optional(key, value, codec);
   }
   template <class T, class Form>
   void defaulted(const char* key, T& value, const Form& codec) {
@@ -213,7 +215,7 @@ class FieldReader {
   }
   template <class T>
   void object(const char* key, std::optional<T>& value) {
-    if (const auto found = json_.find(key)) value = readFields<T>(*found);
+    json_.optional(key, value, readFields<T>);
   }
   template <class T>
   void list(const char* key, std::vector<T>& values) {

@@ -60,7 +60,7 @@ class JsonCheck : public nlohmann::json_sax<nlohmann::json> {
     --depth_;
     return true;
   }
-  /// The parser that makes the values says what is wrong.
+  /// The parser that builds the values reports the error.
   bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
                    const nlohmann::json::exception& /*error*/) override {
     return false;
@@ -155,8 +155,13 @@ void JsonReader::requireUsed() const {
   }
 }
 
+bool JsonReader::hasFormat(std::string_view format) const {
+  const auto found = value_->is_object() ? find("format") : std::nullopt;
+  return found && found->value_->is_string() && found->text() == format;
+}
+
 void JsonReader::requireFormat(std::string_view format, int version) const {
-  if (!isObject()) fail("not a JSON object");
+  if (!value_->is_object()) fail("not a JSON object");
   for (const char* key : {"format", "version"})
     if (!find(key))
       failMember(key, "missing: a file of its own begins with \"format\": \"" +
@@ -212,12 +217,6 @@ std::vector<JsonReader> JsonReader::elements(std::size_t count) const {
   return elements();
 }
 
-bool JsonReader::isObject() const { return value_->is_object(); }
-bool JsonReader::isText() const { return value_->is_string(); }
-bool JsonReader::isBoolean() const { return value_->is_boolean(); }
-bool JsonReader::isNumber() const { return value_->is_number(); }
-bool JsonReader::isInteger() const { return value_->is_number_integer(); }
-
 double JsonReader::number() const {
   if (!value_->is_number()) fail(mismatch("a number"));
   const auto value = value_->get<double>();
@@ -242,7 +241,7 @@ std::int64_t JsonReader::integer(std::int64_t minimum, std::int64_t maximum) con
   if (!value_->is_number()) fail(mismatch("an integer"));
   std::int64_t value = 0;
   if (value_->is_number_float()) {
-    // Above 2^53 a double does not say which integer is meant.
+    // Above 2^53 a double stands for several integers.
     const auto real = value_->get<double>();
     if (!(std::abs(real) <= 9007199254740992.0) || std::floor(real) != real)
       fail("not an integer (is " + numberText(real) + ")");

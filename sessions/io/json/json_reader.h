@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <map>
@@ -44,8 +45,10 @@ class JsonUse {
 /// readers need no error handling. Points into the document, which must outlive it.
 class JsonReader {
  public:
-  JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place)
-      : JsonReader(file, value, std::move(place), nullptr) {}
+  /// `use` may be nullptr.
+  JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place,
+             JsonUse* use = nullptr)
+      : file_(&file), value_(&value), place_(std::move(place)), use_(use) {}
 
   /// The result of `read` for this value. InputError for each member that `read` did not access: a
   /// misspelt member would be ignored, and lost when the file is written again.
@@ -57,6 +60,8 @@ class JsonReader {
     tracked.requireUsed();
     return result;
   }
+  /// Whether this is an object that states this format.
+  bool hasFormat(std::string_view format) const;
   /// InputError unless this is an object of this `format` and `version`.
   void requireFormat(std::string_view format, int version) const;
 
@@ -70,15 +75,17 @@ class JsonReader {
   JsonReader at(std::string_view key) const;
   /// Member of an object, or empty. A null counts as absent.
   std::optional<JsonReader> find(std::string_view key) const;
+  /// Sets `value` to what `read` gives for the member `key` of this object, where there is one.
+  template <class T, class Read>
+  void optional(std::string_view key, T& value, const Read& read) const {
+    if (const auto found = find(key)) value = std::invoke(read, *found);
+  }
   std::vector<std::pair<std::string, JsonReader>> members() const;  ///< of an object, by key
   std::vector<JsonReader> elements() const;                         ///< of an array
   std::vector<JsonReader> elements(std::size_t count) const;        ///< of an array of `count`
 
-  bool isObject() const;
-  bool isText() const;
-  bool isBoolean() const;
-  bool isNumber() const;
-  bool isInteger() const;  ///< written without fraction or exponent
+  /// The parsed value, for its kind.
+  const nlohmann::json& value() const { return *value_; }
 
   double number() const;
   /// A number in [minimum, maximum].
@@ -118,9 +125,6 @@ class JsonReader {
   const std::string& place() const { return place_; }
 
  private:
-  JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place,
-             JsonUse* use)
-      : file_(&file), value_(&value), place_(std::move(place)), use_(use) {}
   JsonReader member(std::string_view key, const nlohmann::json& value) const;
   JsonReader element(std::size_t index) const;
   /// Rejects, here and below, members of opened objects that were not accessed.
@@ -137,6 +141,13 @@ class JsonReader {
 
 /// Shortest text that reads back as the same double.
 std::string numberText(double value);
+/// Several numbers, e.g. "0.5 -3 0.1".
+template <class Numbers = std::initializer_list<double>>
+std::string numbersText(const Numbers& numbers, const char* separator = " ") {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : separator) + numberText(number);
+  return text;
+}
 
 inline constexpr std::size_t kMaxJsonBytes = 64 * kMegabyte;
 inline constexpr std::size_t kMaxJsonDepth = 64;

@@ -28,33 +28,23 @@ std::string scalarText(const ordered_json& value) {
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-std::string plainListText(const ordered_json& list) {
-  std::string text = "[";
-  for (const ordered_json& element : list)
-    text += (text.size() > 1 ? ", " : "") + scalarText(element);
-  return text + "]";
-}
-
 void append(const ordered_json& value, const std::string& indent, std::string& text) {
   if (!value.is_structured() || value.empty()) {
     text += scalarText(value);
     return;
   }
-  if (isPlainList(value)) {
-    text += plainListText(value);
-    return;
-  }
+  const bool one_line = isPlainList(value);
   const std::string inner = indent + "  ";
-  text += value.is_object() ? "{\n" : "[\n";
-  bool first = true;
+  const std::string line_start = one_line ? "" : "\n" + inner;
+  std::string separator;
+  text += value.is_object() ? "{" : "[";
   for (const auto& item : value.items()) {
-    if (!first) text += ",\n";
-    first = false;
-    text += inner;
+    text += separator + line_start;
+    separator = one_line ? ", " : ",";
     if (value.is_object()) text += ordered_json(item.key()).dump() + ": ";
     append(item.value(), inner, text);
   }
-  text += "\n" + indent + (value.is_object() ? "}" : "]");
+  text += (one_line ? "" : "\n" + indent) + (value.is_object() ? "}" : "]");
 }
 
 template <class Matrix>
@@ -93,5 +83,6 @@ ordered_json toJson(const Pose& a_from_b) {
 }
 
 ordered_json toJson(const Matrix6d& matrix) { return rowsOf(matrix); }
+ordered_json toJson(const Eigen::MatrixXd& matrix) { return rowsOf(matrix); }
 
 }  // namespace boresight::sessions

@@ -23,7 +23,8 @@ nlohmann::ordered_json toJson(const Eigen::Vector2d& vector);
 nlohmann::ordered_json toJson(const Eigen::Vector3d& vector);
 /// Row-major 4x4.
 nlohmann::ordered_json toJson(const Pose& a_from_b);
-/// Six rows of six numbers.
+/// Rows of numbers.
 nlohmann::ordered_json toJson(const Matrix6d& matrix);
+nlohmann::ordered_json toJson(const Eigen::MatrixXd& matrix);
 
 }  // namespace boresight::sessions

@@ -19,12 +19,6 @@ std::string rangeText(const OptionDescription& option) {
   return numberText(option.minimum) + " .. " + withUnit(numberText(option.maximum), option.unit);
 }
 
-std::string choicesText(const OptionDescription& option) {
-  std::string text;
-  for (const std::string& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
-  return text;
-}
-
 std::string plainText(const OptionValue& value) {
   if (const bool* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
@@ -35,7 +29,7 @@ std::string plainText(const OptionValue& value) {
 [[noreturn]] void wrongKind(const OptionDescription& option, const OptionValue& value) {
   const std::string wanted[] = {"true or false", "an integer in " + rangeText(option),
                                 "a number in " + rangeText(option),
-                                "one of " + choicesText(option)};  // by OptionKind
+                                "one of " + joined(option.choices)};  // by OptionKind
   throw OptionError(option.name,
                     plainText(value) + " is not " + wanted[static_cast<std::size_t>(option.kind)]);
 }
@@ -57,7 +51,7 @@ OptionValue checkedInteger(const OptionDescription& option, const OptionValue& v
   if (!number) wrongKind(option, value);
   requireInRange(option, *number);
   if (std::holds_alternative<std::int64_t>(value)) return value;
-  // Beyond 2^53 a double does not say which integer is meant.
+  // Above 2^53 a double stands for several integers.
   if (std::floor(*number) != *number || std::abs(*number) > 9007199254740992.0)
     wrongKind(option, value);
   return static_cast<std::int64_t>(*number);
@@ -65,10 +59,8 @@ OptionValue checkedInteger(const OptionDescription& option, const OptionValue& v
 
 }  // namespace
 
-OptionError::OptionError(std::string name, std::string reason)
-    : std::runtime_error(oneLine(name + ": " + reason)),
-      name_(std::move(name)),
-      reason_(std::move(reason)) {}
+OptionError::OptionError(const std::string& name, const std::string& reason)
+    : std::runtime_error(oneLine(name + ": " + reason)), reason_(reason) {}
 
 OptionValue checkedValue(const OptionDescription& option, const OptionValue& value) {
   switch (option.kind) {

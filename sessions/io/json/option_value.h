@@ -39,12 +39,10 @@ struct OptionDescription {
 /// An option that does not exist or cannot have the value: "NAME: REASON".
 class OptionError : public std::runtime_error {
  public:
-  OptionError(std::string name, std::string reason);
-  const std::string& name() const { return name_; }
+  OptionError(const std::string& name, const std::string& reason);
   const std::string& reason() const { return reason_; }
 
  private:
-  std::string name_;
   std::string reason_;
 };
 

@@ -152,14 +152,10 @@ namespace fs = std::filesystem;
 std::string nameOf(const std::string& uri) {
   std::string name;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    const std::string digits = uri[i] == '%' ? uri.substr(i + 1, 2) : "";
-    if (digits.size() == 2 &&
-        digits.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos) {
-      name += static_cast<char>(std::stoi(digits, nullptr, 16));
-      i += 2;
-    } else {
-      name += uri[i];
-    }
+    const auto code = numberIn<unsigned>(std::string_view(uri).substr(i + 1, 2), 16);
+    const bool encoded = uri[i] == '%' && i + 2 < uri.size() && code;
+    name += encoded ? static_cast<char>(*code) : uri[i];
+    if (encoded) i += 2;
   }
   return name;
 }
@@ -219,21 +215,13 @@ bool carriesUnit(MeshFormat format) {
   return format == MeshFormat::kGltf || format == MeshFormat::kGlb;
 }
 
-MeshDeclaration checkMeshContainer(const std::filesystem::path& file, Bytes bytes,
-                                   MeshFormat format) {
-  switch (format) {
-    case MeshFormat::kPly:
-      return checkPly(file, bytes);
-    case MeshFormat::kStl:
-      return checkStl(file, bytes);
-    case MeshFormat::kGlb:
-      return checkGlb(file, bytes);
-    case MeshFormat::kGltf:
-      return checkGltfJson(file, asText(bytes));
-    case MeshFormat::kObj:
-      return {};
-  }
-  return {};
+MeshDeclaration checkMeshContainer(const MeshFiles& files) {
+  const MeshFormat format = files.format;
+  if (format == MeshFormat::kPly) return checkPly(files.file, files.bytes);
+  if (format == MeshFormat::kStl) return checkStl(files.file, files.bytes);
+  if (format == MeshFormat::kGlb) return checkGlb(files.file, files.bytes);
+  if (format == MeshFormat::kGltf) return checkGltfJson(files.file, asText(files.bytes));
+  return {};  // an OBJ file declares nothing
 }
 
 MeshFiles readMeshFiles(const fs::path& file) {

@@ -9,9 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "core/geometry/mesh.h"
 #include "sessions/io/files/file_bytes.h"
 
 namespace boresight::sessions {
@@ -23,7 +20,7 @@ const char* meshFormatName(MeshFormat format);
 /// By the file's extension; InputError for any other than ply, obj, stl, gltf, glb.
 MeshFormat meshFormatOf(const std::filesystem::path& file);
 
-/// The same without throwing, and the reason for a message.
+/// The same, empty for other extensions; and the message for such a file.
 std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file);
 std::string unknownMeshFormat(const std::filesystem::path& file);
 
@@ -33,18 +30,12 @@ bool carriesUnit(MeshFormat format);
 /// Size that a mesh file declares.
 struct MeshDeclaration {
   std::optional<std::int64_t> vertex_count;
-  std::optional<std::int64_t> polygon_count;
+  std::optional<std::int64_t> polygon_count;  ///< empty: not stated
   /// Offset of the data of a binary PLY, when their first byte looks like a line end.
   std::optional<std::size_t> newline_as_data = {};
   /// A PLY mesh with triangle strips, or with faces before vertices: importers read its plainPly().
   bool needs_plain_ply = false;
 };
-
-/// Checks that the bytes have the extension's format, and are complete as far as the format shows
-/// (PLY: every element is present; STL: the facets or `endsolid`; GLB: the stated length; a
-/// truncated OBJ is not detected). Importers accept truncated files silently. InputError.
-MeshDeclaration checkMeshContainer(const std::filesystem::path& file,
-                                   std::span<const std::uint8_t> bytes, MeshFormat format);
 
 /// Of a mesh file and its buffers together.
 inline constexpr std::size_t kMaxMeshFileBytes = 512 * kMegabyte;
@@ -71,25 +62,22 @@ struct MeshFiles {
 /// buffer outside of the mesh's folder (also by a link).
 MeshFiles readMeshFiles(const std::filesystem::path& file);
 
+/// Checks that the mesh file has its extension's format, and is complete as far as the format shows
+/// (PLY: every element is present; STL: the facets or `endsolid`; GLB: the stated length; a
+/// truncated OBJ is not detected). Importers accept truncated files silently. InputError.
+MeshDeclaration checkMeshContainer(const MeshFiles& files);
+
 /// The part of checkMeshContainer for PLY (ASCII and binary of either byte order): walks every
 /// element that the header declares to its last value. InputError.
 MeshDeclaration checkPly(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
-/// Triangles of a mesh file before welding.
-struct ImportedMesh {
-  std::vector<Eigen::Vector3f> vertices_m;
-  std::vector<Face> faces;
-  std::int64_t file_vertices = 0;
-  std::int64_t file_polygons = 0;
-  std::int64_t lines_and_points = 0;
-  std::int64_t irregular_polygons = 0;  ///< could only be cut into a fan
-};
+struct Mesh;
 
 /// Reads files of which the first passed checkMeshContainer, places every mesh by the transforms of
-/// its nodes, scales to metres, and triangulates. Checks every index and coordinate, as the
-/// importer or the file may be faulty. Opens no file. InputError.
-ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
-                        double metres_per_unit);
+/// its nodes, scales by `info.metres_per_unit`, and triangulates: sets the vertices and faces of
+/// `mesh`, not yet welded, and the counts of `info` that concern the file. Checks every index and
+/// coordinate, as the importer or the file may be faulty. Opens no file. InputError.
+void importMesh(const MeshFiles& files, const MeshDeclaration& declared, Mesh& mesh);
 
 /// InputError when `count` of `what` exceeds `limit`.
 void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::int64_t limit,

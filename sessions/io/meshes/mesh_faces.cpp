@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -108,41 +109,43 @@ std::vector<Corner> flatten(const std::vector<Eigen::Vector3f>& vertices,
   return corners;
 }
 
-/// Whether the corner between its neighbours turns left and no other corner lies in their triangle.
-bool isEar(const std::vector<Corner>& corners, std::size_t at) {
+/// The first ear: a corner that turns left, without another corner in the triangle with its
+/// neighbours. Else the first corner on the straight line of its neighbours, which takes no area;
+/// else the number of corners.
+std::size_t cornerToClip(const std::vector<Corner>& corners) {
   const std::size_t count = corners.size();
-  const std::size_t before = (at + count - 1) % count;
-  const std::size_t after = (at + 1) % count;
-  const Eigen::Vector2d& a = corners[before].place;
-  const Eigen::Vector2d& b = corners[at].place;
-  const Eigen::Vector2d& c = corners[after].place;
-  if (!(cross(a, b, c) > 0.0)) return false;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d& p = corners[i].place;
-    if (i == before || i == at || i == after || p == a || p == b || p == c) continue;
-    if (cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0) return false;
+  std::size_t straight = count;
+  for (std::size_t at = 0; at < count; ++at) {
+    const Eigen::Vector2d& a = corners[(at + count - 1) % count].place;
+    const Eigen::Vector2d& b = corners[at].place;
+    const Eigen::Vector2d& c = corners[(at + 1) % count].place;
+    const auto is_inside = [&a, &b, &c](const Corner& corner) {
+      const Eigen::Vector2d& p = corner.place;
+      return p != a && p != b && p != c && cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 &&
+             cross(c, a, p) >= 0.0;
+    };
+    const double turn = cross(a, b, c);
+    if (turn > 0.0 && std::none_of(corners.begin(), corners.end(), is_inside)) return at;
+    if (turn == 0.0 && straight == count) straight = at;
   }
-  return true;
+  return straight;
 }
 
-/// A corner on the straight line of its neighbours takes no area: it is no ear, but may go once
-/// nothing else can.
-bool isStraight(const std::vector<Corner>& corners, std::size_t at) {
-  const std::size_t count = corners.size();
-  return cross(corners[(at + count - 1) % count].place, corners[at].place,
-               corners[(at + 1) % count].place) == 0.0;
-}
-
-std::size_t findCorner(const std::vector<Corner>& corners,
-                       bool (*suits)(const std::vector<Corner>&, std::size_t)) {
-  std::size_t at = 0;
-  while (at < corners.size() && !suits(corners, at)) ++at;
-  return at;
-}
-
-void appendFan(std::span<const std::int32_t> corners, std::vector<Face>& triangles) {
-  for (std::size_t i = 2; i < corners.size(); ++i)
-    triangles.push_back({{corners[0], corners[i - 1], corners[i]}});
+/// The triangles of the clipped ears; none of a polygon that crosses itself or has no area.
+std::vector<Face> earsOf(const std::vector<Eigen::Vector3f>& vertices,
+                         std::span<const std::int32_t> corners) {
+  std::vector<Face> triangles;
+  std::vector<Corner> rest = flatten(vertices, corners);
+  while (rest.size() > 3) {
+    const std::size_t at = cornerToClip(rest);
+    const std::size_t count = rest.size();
+    if (at == count) return {};
+    triangles.push_back(
+        {{rest[(at + count - 1) % count].index, rest[at].index, rest[(at + 1) % count].index}});
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  triangles.push_back({{rest[0].index, rest[1].index, rest[2].index}});
+  return triangles;
 }
 
 }  // namespace
@@ -154,8 +157,9 @@ float weldTolerance(const std::vector<Eigen::Vector3f>& vertices) {
   return 2.0F * std::numeric_limits<float>::epsilon() * largest;
 }
 
-WeldedMesh weldMesh(const std::vector<Eigen::Vector3f>& vertices, const std::vector<Face>& faces) {
-  WeldedMesh welded;
+void weldMesh(Mesh& mesh) {
+  const std::vector<Eigen::Vector3f> vertices = std::exchange(mesh.vertices_m, {});
+  const std::vector<Face> faces = std::exchange(mesh.faces, {});
   std::vector<std::int32_t> used_as(vertices.size(), -1);
   VertexGrid grid(weldTolerance(vertices), vertices.size());
   std::int64_t used = 0;
@@ -164,59 +168,40 @@ WeldedMesh weldMesh(const std::vector<Eigen::Vector3f>& vertices, const std::vec
     if (index >= 0) return index;
     ++used;
     const Eigen::Vector3f& vertex = vertices[static_cast<std::size_t>(old_index)];
-    index = grid.find(vertex, welded.vertices);
+    index = grid.find(vertex, mesh.vertices_m);
     if (index >= 0) {
-      ++welded.merged_vertices;
+      ++mesh.info.merged_vertices;
       return index;
     }
-    index = static_cast<std::int32_t>(welded.vertices.size());
+    index = static_cast<std::int32_t>(mesh.vertices_m.size());
     grid.insert(vertex, index);
-    welded.vertices.push_back(vertex);
+    mesh.vertices_m.push_back(vertex);
     return index;
   };
-  welded.faces.reserve(faces.size());
+  mesh.faces.reserve(faces.size());
   for (const Face& face : faces) {
     Face corner;
     for (std::size_t i = 0; i < 3; ++i) corner.vertex[i] = weld(face.vertex[i]);
     const auto& v = corner.vertex;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
-      ++welded.collapsed_faces;
+      ++mesh.info.collapsed_faces;
     else
-      welded.faces.push_back(corner);
+      mesh.faces.push_back(corner);
   }
-  welded.unused_vertices = static_cast<std::int64_t>(vertices.size()) - used;
-  return welded;
+  mesh.info.unused_vertices = static_cast<std::int64_t>(vertices.size()) - used;
 }
 
 bool triangulatePolygon(const std::vector<Eigen::Vector3f>& vertices,
                         std::span<const std::int32_t> corners, std::vector<Face>& triangles) {
-  if (corners.size() == 3) {
-    appendFan(corners, triangles);
-    return true;
-  }
   // Ear clipping takes up to n^3 steps, which only a damaged file makes long.
   constexpr std::size_t kMaxCorners = 1000;
-  if (corners.size() > kMaxCorners) {
-    appendFan(corners, triangles);
-    return false;
-  }
-  const std::size_t triangles_before = triangles.size();
-  std::vector<Corner> rest = flatten(vertices, corners);
-  while (rest.size() > 3) {
-    std::size_t at = findCorner(rest, isEar);
-    if (at == rest.size()) at = findCorner(rest, isStraight);
-    if (at == rest.size()) {
-      triangles.resize(triangles_before);
-      appendFan(corners, triangles);
-      return false;
-    }
-    const std::size_t count = rest.size();
-    triangles.push_back(
-        {{rest[(at + count - 1) % count].index, rest[at].index, rest[(at + 1) % count].index}});
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-  triangles.push_back({{rest[0].index, rest[1].index, rest[2].index}});
-  return true;
+  std::vector<Face> ears;
+  if (corners.size() > 3 && corners.size() <= kMaxCorners) ears = earsOf(vertices, corners);
+  triangles.insert(triangles.end(), ears.begin(), ears.end());
+  if (!ears.empty()) return true;
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    triangles.push_back({{corners[0], corners[i - 1], corners[i]}});
+  return corners.size() == 3;
 }
 
 }  // namespace boresight::sessions

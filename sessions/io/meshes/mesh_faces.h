@@ -8,23 +8,16 @@
 #include <Eigen/Core>
 
 #include "core/geometry/mesh.h"
+#include "sessions/io/meshes/mesh_file.h"
 
 namespace boresight::sessions {
 
-/// Result of `weldMesh`.
-struct WeldedMesh {
-  std::vector<Eigen::Vector3f> vertices;  ///< only those that faces use
-  std::vector<Face> faces;
-  std::int64_t merged_vertices = 0;
-  std::int64_t unused_vertices = 0;
-  std::int64_t collapsed_faces = 0;  ///< two corners became one; such faces are left out
-};
-
-/// Merges vertices that lie within `weldTolerance` (per axis) of an earlier one. Vertices and faces
-/// keep the order of their first appearance. Formats such as STL repeat a vertex in every face, and
-/// single precision may round the copies differently. Indices must be in range and coordinates
-/// finite.
-WeldedMesh weldMesh(const std::vector<Eigen::Vector3f>& vertices, const std::vector<Face>& faces);
+/// Merges vertices that lie within `weldTolerance` (per axis) of an earlier one, and leaves out
+/// vertices that no face uses and faces with two corners that became one; `info` counts all of
+/// them. Vertices and faces keep the order of their first appearance. Formats such as STL repeat a
+/// vertex in every face, and single precision may round the copies differently. Indices must be in
+/// range and coordinates finite.
+void weldMesh(Mesh& mesh);
 
 /// Two steps of single precision at the largest coordinate: 2.4e-7 of it, e.g. 0.1 um in 0.4 m.
 float weldTolerance(const std::vector<Eigen::Vector3f>& vertices);

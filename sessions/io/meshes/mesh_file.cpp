@@ -18,24 +18,19 @@ namespace {
 
 constexpr double kSliverRatio = 1e-4;
 
-double unitScale(const std::filesystem::path& file, MeshFormat format, const std::string& unit,
-                 std::string& used_unit) {
-  used_unit = unit;
-  if (unit.empty()) {
-    if (!carriesUnit(format))
-      throw InputError(file, "mesh_unit",
-                       std::string("missing: ") + meshFormatName(format) +
-                           " carries no unit (m, cm, mm, um, in, ...)");
-    used_unit = "m";
-  }
-  const std::optional<double> scale = metresPerUnit(used_unit);
+/// Metres per unit of a mesh of this unit; "" where none is stated or carried.
+double unitScale(const MeshInfo& info) {
+  if (info.unit.empty())
+    throw InputError(info.file, "mesh_unit",
+                     "missing: " + info.format + " carries no unit (m, cm, mm, um, in, ...)");
+  const std::optional<double> scale = metresPerUnit(info.unit);
   if (!scale)
-    throw InputError(file, "mesh_unit",
-                     "unknown unit '" + unit + "' (m, dm, cm, mm, um, in, ft, yd, km)");
+    throw InputError(info.file, "mesh_unit",
+                     "unknown unit '" + info.unit + "' (m, dm, cm, mm, um, in, ft, yd, km)");
   return *scale;
 }
 
-void measure(const std::filesystem::path& file, Mesh& mesh) {
+void measure(Mesh& mesh) {
   MeshInfo& info = mesh.info;
   info.minimum_m = info.maximum_m = mesh.vertices_m.front().cast<double>();
   for (const Eigen::Vector3f& vertex : mesh.vertices_m) {
@@ -53,7 +48,7 @@ void measure(const std::filesystem::path& file, Mesh& mesh) {
     if (doubled_area_m2 <= kSliverRatio * longest_m * longest_m) ++info.sliver_faces;
   }
   if (info.sliver_faces == static_cast<std::int64_t>(mesh.faces.size()))
-    throw InputError(file, "faces",
+    throw InputError(info.file, "faces",
                      "all " + std::to_string(info.sliver_faces) + " are slivers without area");
 }
 
@@ -88,32 +83,19 @@ Mesh readMesh(const MeshFiles& files, const std::string& unit) {
   MeshInfo& info = mesh.info;
   info.file = file;
   info.format = meshFormatName(files.format);
-  info.metres_per_unit = unitScale(file, files.format, unit, info.unit);
+  info.unit = unit.empty() && carriesUnit(files.format) ? "m" : unit;
+  info.metres_per_unit = unitScale(info);
   info.file_sha256 = files.sha256;
-  const MeshDeclaration declared = checkMeshContainer(file, files.bytes, files.format);
+  const MeshDeclaration declared = checkMeshContainer(files);
   requireAtMost(file, declared.vertex_count.value_or(0), kMaxMeshVertices, "vertices");
   requireAtMost(file, declared.polygon_count.value_or(0), kMaxMeshFaces, "faces");
-  const bool states_none =
-      declared.vertex_count && !declared.polygon_count && !declared.needs_plain_ply;
-  if (declared.polygon_count.value_or(1) == 0 || states_none)
+  if (declared.polygon_count != 0) importMesh(files, declared, mesh);
+  if (mesh.faces.empty())
     throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
-
-  const ImportedMesh imported = importMesh(files, declared, info.metres_per_unit);
-  info.file_vertices = imported.file_vertices;
-  info.file_polygons = imported.file_polygons;
-  info.lines_and_points = imported.lines_and_points;
-  info.irregular_polygons = imported.irregular_polygons;
-  if (imported.faces.empty())
-    throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
-  WeldedMesh welded = weldMesh(imported.vertices_m, imported.faces);
-  if (welded.faces.empty())
+  weldMesh(mesh);
+  if (mesh.faces.empty())
     throw InputError(file, "faces", "each has two coinciding corners and no area");
-  mesh.vertices_m = std::move(welded.vertices);
-  mesh.faces = std::move(welded.faces);
-  info.merged_vertices = welded.merged_vertices;
-  info.unused_vertices = welded.unused_vertices;
-  info.collapsed_faces = welded.collapsed_faces;
-  measure(file, mesh);
+  measure(mesh);
   return mesh;
 }
 

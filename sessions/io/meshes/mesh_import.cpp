@@ -25,7 +25,7 @@
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/io/meshes/mesh_faces.h"
 #include "sessions/io/meshes/mesh_file.h"
-#include "sessions/io/meshes/ply_header.h"
+#include "sessions/io/meshes/ply_file.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // Importers of assimp leak when they reject a file; our own leaks must still be reported.
@@ -177,17 +177,16 @@ void checkIndices(const std::filesystem::path& file, const aiScene& scene) {
   }
 }
 
-void countPrimitives(const std::filesystem::path& file, const aiScene& scene,
-                     const MeshDeclaration& declared, ImportedMesh& imported) {
+void countPrimitives(const aiScene& scene, const MeshDeclaration& declared, MeshInfo& info) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    imported.file_vertices += scene.mMeshes[m]->mNumVertices;
-    imported.file_polygons += scene.mMeshes[m]->mNumFaces;
+    info.file_vertices += scene.mMeshes[m]->mNumVertices;
+    info.file_polygons += scene.mMeshes[m]->mNumFaces;
   }
-  requireAtMost(file, imported.file_vertices, kMaxMeshVertices, "vertices");
-  if (declared.polygon_count && imported.file_polygons < *declared.polygon_count)
-    throw InputError(file, "faces",
+  requireAtMost(info.file, info.file_vertices, kMaxMeshVertices, "vertices");
+  if (declared.polygon_count && info.file_polygons < *declared.polygon_count)
+    throw InputError(info.file, "faces",
                      std::to_string(*declared.polygon_count) + " declared, " +
-                         std::to_string(imported.file_polygons) + " readable");
+                         std::to_string(info.file_polygons) + " readable");
 }
 
 Eigen::Matrix4d toEigen(const aiMatrix4x4& m) {
@@ -209,12 +208,12 @@ Eigen::Vector3f placedVertex(const std::filesystem::path& file, const aiVector3D
   return placed_m.cast<float>();
 }
 
-void appendFaces(const aiMesh& mesh, std::int32_t first, bool mirrored, ImportedMesh& imported) {
+void appendFaces(const aiMesh& imported, std::int32_t first, bool mirrored, Mesh& mesh) {
   std::vector<std::int32_t> corners;
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& polygon = mesh.mFaces[f];
+  for (unsigned f = 0; f < imported.mNumFaces; ++f) {
+    const aiFace& polygon = imported.mFaces[f];
     if (polygon.mNumIndices < 3) {
-      ++imported.lines_and_points;
+      ++mesh.info.lines_and_points;
       continue;
     }
     corners.clear();
@@ -222,28 +221,26 @@ void appendFaces(const aiMesh& mesh, std::int32_t first, bool mirrored, Imported
       corners.push_back(first + static_cast<std::int32_t>(polygon.mIndices[i]));
     // A mirrored node would turn its faces inside out.
     if (mirrored) std::reverse(corners.begin(), corners.end());
-    if (!triangulatePolygon(imported.vertices_m, corners, imported.faces))
-      ++imported.irregular_polygons;
+    if (!triangulatePolygon(mesh.vertices_m, corners, mesh.faces)) ++mesh.info.irregular_polygons;
   }
 }
 
-void appendMesh(const std::filesystem::path& file, const aiMesh& mesh,
-                const Eigen::Matrix4d& metres_from_mesh, ImportedMesh& imported) {
-  const std::size_t first = imported.vertices_m.size();
-  requireAtMost(file, static_cast<std::int64_t>(first) + mesh.mNumVertices, kMaxMeshVertices,
+void appendMesh(const aiMesh& imported, const Eigen::Matrix4d& metres_from_mesh, Mesh& mesh) {
+  const std::filesystem::path& file = mesh.info.file;
+  const std::size_t first = mesh.vertices_m.size();
+  requireAtMost(file, static_cast<std::int64_t>(first) + imported.mNumVertices, kMaxMeshVertices,
                 "vertices");
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v)
-    imported.vertices_m.push_back(placedVertex(file, mesh.mVertices[v], metres_from_mesh, v));
+  for (unsigned v = 0; v < imported.mNumVertices; ++v)
+    mesh.vertices_m.push_back(placedVertex(file, imported.mVertices[v], metres_from_mesh, v));
   const bool mirrored = metres_from_mesh.topLeftCorner<3, 3>().determinant() < 0.0;
-  appendFaces(mesh, static_cast<std::int32_t>(first), mirrored, imported);
-  requireAtMost(file, static_cast<std::int64_t>(imported.faces.size()), kMaxMeshFaces, "triangles");
+  appendFaces(imported, static_cast<std::int32_t>(first), mirrored, mesh);
+  requireAtMost(file, static_cast<std::int64_t>(mesh.faces.size()), kMaxMeshFaces, "triangles");
 }
 
 /// All meshes of all nodes, placed by their nodes' transforms.
-void placeNodes(const std::filesystem::path& file, const aiScene& scene, double scale,
-                ImportedMesh& imported) {
+void placeNodes(const aiScene& scene, Mesh& mesh) {
   Eigen::Matrix4d metres_from_root = Eigen::Matrix4d::Identity();
-  metres_from_root.topLeftCorner<3, 3>() *= scale;
+  metres_from_root.topLeftCorner<3, 3>() *= mesh.info.metres_per_unit;
   std::vector<std::pair<const aiNode*, Eigen::Matrix4d>> open = {
       {scene.mRootNode, metres_from_root}};
   while (!open.empty()) {
@@ -251,7 +248,7 @@ void placeNodes(const std::filesystem::path& file, const aiScene& scene, double 
     open.pop_back();
     const Eigen::Matrix4d metres_from_node = metres_from_parent * toEigen(node->mTransformation);
     for (unsigned m = 0; m < node->mNumMeshes; ++m)
-      appendMesh(file, *scene.mMeshes[node->mMeshes[m]], metres_from_node, imported);
+      appendMesh(*scene.mMeshes[node->mMeshes[m]], metres_from_node, mesh);
     for (unsigned c = node->mNumChildren; c > 0; --c)
       open.emplace_back(node->mChildren[c - 1], metres_from_node);
   }
@@ -267,16 +264,13 @@ void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::i
                          ": decimate the mesh");
 }
 
-ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
-                        double metres_per_unit) {
-  ImportedMesh imported;
+void importMesh(const MeshFiles& files, const MeshDeclaration& declared, Mesh& mesh) {
   const std::vector<std::uint8_t> rewritten = rewrittenFor(files, declared);
   Assimp::Importer importer;
   const aiScene* scene = import(importer, files, rewritten.empty() ? files.bytes : rewritten);
   checkIndices(files.file, *scene);
-  countPrimitives(files.file, *scene, declared, imported);
-  placeNodes(files.file, *scene, metres_per_unit, imported);
-  return imported;
+  countPrimitives(*scene, declared, mesh.info);
+  placeNodes(*scene, mesh);
 }
 
 }  // namespace boresight::sessions

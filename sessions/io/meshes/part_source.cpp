@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -19,37 +20,27 @@ PartRole roleOf(std::string_view name) {
   return static_cast<PartRole>(found - std::begin(kPartRoleNames));
 }
 
-/// The transform to the frame that a part moves with.
-struct Placement {
-  FrameName frame;
-  Pose frame_from_part_frame;
-  std::string problem;  ///< "": there is one
-};
-
-Placement placementOf(const FrameName& frame, const FrameTree& frames) {
-  if (frame == kStationFrame || frame == kCameraFrame) return {frame, Pose(), ""};
-  const auto camera = frames.chain(kCameraFrame, frame);
-  const auto station = frames.chain(kStationFrame, frame);
-  if (!camera && !station)
-    return {frame, Pose(),
-            frameText(frame) +
-                " is joined to neither CAMERA nor STATION: add the transform that joins it "
-                "(--frames, or transforms of dataset.json)"};
-  if (camera && station && camera->links.size() == station->links.size())
-    return {frame, Pose(),
-            frameText(frame) +
-                " is as many transforms from CAMERA as from STATION: place the part in the one "
-                "that it moves with"};
-  const bool with_camera = camera && (!station || camera->links.size() < station->links.size());
-  return with_camera ? Placement{kCameraFrame, camera->a_from_b, ""}
-                     : Placement{kStationFrame, station->a_from_b, ""};
-}
-
-PartConcern concernOf(const PartSource& part, const Placement& placement) {
-  if (!placement.problem.empty()) return {"frame", placement.problem};
-  if (placement.frame == kCameraFrame && part.state.role == PartRole::kMatched)
-    return {"role", "a part that is fixed to the camera cannot be matched: give it the role "
-                    "occludes"};
+/// Places the part in STATION or CAMERA; returns why it cannot.
+PartConcern placeInScene(PartSource& part, const FrameTree& frames) {
+  if (part.frame != kStationFrame && part.frame != kCameraFrame) {  // else the pose keeps its bits
+    const auto camera = frames.chain(kCameraFrame, part.frame);
+    const auto station = frames.chain(kStationFrame, part.frame);
+    if (!camera && !station)
+      return {"frame", frameText(part.frame) +
+                           " is joined to neither CAMERA nor STATION: add the transform that joins "
+                           "it (--frames, or transforms of dataset.json)"};
+    if (camera && station && camera->links.size() == station->links.size())
+      return {"frame", frameText(part.frame) +
+                           " is as many transforms from CAMERA as from STATION: place the part in "
+                           "the one that it moves with"};
+    const bool with_camera = camera && (!station || camera->links.size() < station->links.size());
+    part.frame = with_camera ? kCameraFrame : kStationFrame;
+    part.frame_from_mesh = (with_camera ? *camera : *station).a_from_b * part.frame_from_mesh;
+  }
+  if (part.frame == kCameraFrame && part.state.role == PartRole::kMatched)
+    return {"role",
+            "a part that is fixed to the camera cannot be matched: give it the role "
+            "occludes"};
   return {};
 }
 
@@ -71,8 +62,8 @@ std::string partName(const PartSource& part) {
 }
 
 std::string partText(const PartSource& part) {
-  return partName(part) + ": " + roleName(part.state.role) + ", fixed to " +
-         frameText(part.frame) + (part.state.present ? "" : ", off");
+  return partName(part) + ": " + roleName(part.state.role) + ", fixed to " + frameText(part.frame) +
+         (part.state.present ? "" : ", off");
 }
 
 bool anyMatched(std::span<const PartSource> parts) {
@@ -82,31 +73,25 @@ bool anyMatched(std::span<const PartSource> parts) {
 
 std::size_t partOfName(std::span<const PartSource> parts, const std::string& name,
                        const std::filesystem::path& file, const std::string& place) {
-  const auto named = [&name](const PartSource& part) { return partName(part) == name; };
-  const auto found = std::find_if(parts.begin(), parts.end(), named);
-  std::string known;
-  for (const PartSource& part : parts) known += (known.empty() ? "" : ", ") + partName(part);
-  if (found == parts.end())
-    throw InputError(file, place, "there is no part '" + name + "'; there are: " + known);
-  if (std::count_if(parts.begin(), parts.end(), named) > 1)
+  std::vector<std::string> names;
+  for (const PartSource& part : parts) names.push_back(partName(part));
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError(file, place, "there is no part '" + name + "'; there are: " + joined(names));
+  if (std::count(names.begin(), names.end(), name) > 1)
     throw InputError(file, place,
                      "several parts are called '" + name + "': give each a unique 'name'");
-  return static_cast<std::size_t>(found - parts.begin());
+  return static_cast<std::size_t>(found - names.begin());
 }
 
-PartConcern partConcern(const PartSource& part, const FrameTree& frames) {
-  return concernOf(part, placementOf(part.frame, frames));
+PartConcern partConcern(PartSource part, const FrameTree& frames) {
+  return placeInScene(part, frames);
 }
 
-PartSource placedPart(const PartSource& part, const FrameTree& frames) {
-  const Placement placement = placementOf(part.frame, frames);
-  const PartConcern concern = concernOf(part, placement);
+PartSource placedPart(PartSource part, const FrameTree& frames) {
+  const PartConcern concern = placeInScene(part, frames);
   if (!concern.member.empty()) throw InputError(part.mesh, concern.member, concern.reason);
-  PartSource placed = part;
-  if (placement.frame == part.frame) return placed;  // the pose keeps its bits
-  placed.frame = placement.frame;
-  placed.frame_from_mesh = placement.frame_from_part_frame * part.frame_from_mesh;
-  return placed;
+  return part;
 }
 
 nlohmann::ordered_json partFrameJson(const FrameName& frame) {
@@ -114,7 +99,7 @@ nlohmann::ordered_json partFrameJson(const FrameName& frame) {
 }
 
 FrameName readPartFrame(const JsonReader& json) {
-  return json.isText() ? FrameName{json.nonEmptyText(), {}} : readFrameName(json);
+  return json.value().is_string() ? FrameName{json.nonEmptyText(), {}} : readFrameName(json);
 }
 
 PartState readPartState(const JsonReader& json) {

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Parts of a station as files describe them, and their states.
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a station as files describe them, and their states.
 #pragma once
 
 #include <filesystem>
@@ -74,11 +75,11 @@ struct PartConcern {
 };
 /// Why a part cannot be placed: its frame is joined to neither CAMERA nor STATION, or equally near
 /// to both; or it is matched and fixed to the camera.
-PartConcern partConcern(const PartSource& part, const FrameTree& frames);
+PartConcern partConcern(PartSource part, const FrameTree& frames);
 
 /// The part in STATION or CAMERA, whichever fewer transforms join to its frame. InputError when
 /// there is a partConcern.
-PartSource placedPart(const PartSource& part, const FrameTree& frames);
+PartSource placedPart(PartSource part, const FrameTree& frames);
 
 /// "CAMERA", or {"name", "index"} of a frame with an index.
 nlohmann::ordered_json partFrameJson(const FrameName& frame);

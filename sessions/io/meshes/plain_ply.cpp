@@ -9,45 +9,10 @@
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
-#include "sessions/io/meshes/ply_header.h"
+#include "sessions/io/meshes/ply_file.h"
 
 namespace boresight::sessions {
 namespace {
-
-/// The values of a body that passed checkPly, one after the other.
-class PlyValues {
- public:
-  PlyValues(const PlyHeader& header, std::span<const std::uint8_t> bytes)
-      : encoding_(header.encoding), bytes_(bytes), at_(header.body) {
-    text_ = asText(bytes.subspan(header.body));
-  }
-
-  double next(const std::string& type) {
-    if (encoding_ == PlyEncoding::kAscii)
-      return numberIn<double>(takeWord(text_)).value_or(std::nan(""));
-    const int size = plyTypeSize(type);
-    const std::uint64_t bits =
-        readUnsigned(bytes_, at_, size, encoding_ == PlyEncoding::kBigEndian);
-    at_ += static_cast<std::uint64_t>(size);
-    return valueOf(type, size, bits);
-  }
-
- private:
-  static double valueOf(const std::string& type, int size, std::uint64_t bits) {
-    if (size == 8) return std::bit_cast<double>(bits);
-    if (type.starts_with("float"))
-      return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
-    const bool is_unsigned = type.starts_with("u");
-    const int unused = 64 - 8 * size;
-    return is_unsigned ? static_cast<double>(bits)
-                       : static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
-  }
-
-  PlyEncoding encoding_;
-  std::span<const std::uint8_t> bytes_;
-  std::uint64_t at_;
-  std::string_view text_;
-};
 
 using Polygon = std::vector<std::int32_t>;
 
@@ -83,11 +48,10 @@ void addStrips(const Polygon& strip, std::vector<Polygon>& polygons) {
   }
 }
 
-void takeItem(const PlyElement& element, PlyValues& values, PlyMesh& mesh) {
+void takeItem(const PlyElement& element, std::uint64_t item, PlyValues& values, PlyMesh& mesh) {
   std::array<double, 3> vertex{};
   for (const PlyProperty& property : element.properties) {
-    const auto count =
-        static_cast<std::uint64_t>(property.isList() ? values.next(property.count_type) : 1.0);
+    const std::uint64_t count = values.count(element, item, property);
     Polygon list;
     for (std::uint64_t i = 0; i < count; ++i) {
       const double value = values.next(property.type);
@@ -147,11 +111,11 @@ bool needsPlainPly(const PlyHeader& header) {
 std::vector<std::uint8_t> plainPly(const std::filesystem::path& file,
                                    std::span<const std::uint8_t> bytes) {
   const PlyHeader header = readPlyHeader(file, bytes);
-  PlyValues values(header, bytes);
+  PlyValues values(file, header, bytes);
   PlyMesh mesh;
   for (const PlyElement& element : header.elements)
     for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
-      takeItem(element, values, mesh);
+      takeItem(element, i, values, mesh);
   return written(mesh);
 }
 

@@ -9,25 +9,17 @@
 namespace boresight::sessions {
 namespace {
 
-bool isIdentity(const Pose& pose) {
-  return pose.rotation.coeffs() == Eigen::Quaterniond::Identity().coeffs() &&
-         pose.translation_m == Eigen::Vector3d::Zero();
-}
-
-/// `part` is placed.
-ScenePart scenePartOf(const PartSource& part) {
-  ScenePart scene_part;
-  scene_part.normal_threshold_rad = part.normal_threshold_rad;
-  scene_part.depth_threshold_m = part.depth_threshold_m;
-  scene_part.match = part.state.matched();
-  scene_part.fixed_to_camera = part.frame == kCameraFrame;
-  return scene_part;
+/// Those of the station come first.
+std::size_t stationFaceCount(const MeshView& view) {
+  const auto moves = [&view](std::uint16_t part) { return view.parts[part].fixed_to_camera; };
+  const auto end = std::find_if(view.part_of_face.begin(), view.part_of_face.end(), moves);
+  return static_cast<std::size_t>(end - view.part_of_face.begin());
 }
 
 }  // namespace
 
-void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
-             const ScenePart& part, double albedo) {
+void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh, const ScenePart& part,
+             double albedo) {
   const std::filesystem::path& file = mesh.info.file;
   const std::size_t first = scene.vertices_in_station_m.size();
   const auto require = [&file](std::size_t count, std::int64_t limit, const char* what) {
@@ -37,12 +29,11 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
   require(scene.faces.size() + mesh.faces.size(), kMaxMeshFaces, "faces of the station");
   require(scene.parts.size() + 1, std::numeric_limits<std::uint16_t>::max(), "parts");
   // Without a transform the coordinates keep their bits.
-  const bool in_place = isIdentity(frame_from_mesh);
+  const bool in_place = frame_from_mesh == Pose();
   for (const Eigen::Vector3f& vertex : mesh.vertices_m)
     scene.vertices_in_station_m.push_back(
-        in_place
-            ? vertex
-            : Eigen::Vector3f((frame_from_mesh * vertex.cast<double>().eval()).cast<float>()));
+        in_place ? vertex
+                 : Eigen::Vector3f((frame_from_mesh * vertex.cast<double>().eval()).cast<float>()));
   for (const Face& face : mesh.faces) {
     Face moved = face;
     for (std::int32_t& index : moved.vertex) index += static_cast<std::int32_t>(first);
@@ -53,17 +44,6 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
   scene.infos.push_back(mesh.info);
   scene.albedo_of_part.push_back(albedo);
 }
-
-namespace {
-
-/// Those of the station come first.
-std::size_t stationFaceCount(const MeshView& view) {
-  const auto moves = [&view](std::uint16_t part) { return view.parts[part].fixed_to_camera; };
-  const auto end = std::find_if(view.part_of_face.begin(), view.part_of_face.end(), moves);
-  return static_cast<std::size_t>(end - view.part_of_face.begin());
-}
-
-}  // namespace
 
 MeshView heldView(const SceneMesh& scene) {
   MeshView view = scene.view();
@@ -94,7 +74,9 @@ SceneMesh readScene(std::span<const PartSource> parts, const FrameTree& frames,
       if (!parts[i].state.used() || part.frame != frame) continue;
       const MeshFiles files = readMeshFiles(part.mesh);
       if (check) check(i, files.sha256);
-      addPart(scene, readMesh(files, part.mesh_unit), part.frame_from_mesh, scenePartOf(part),
+      const ScenePart scene_part{part.normal_threshold_rad, part.depth_threshold_m,
+                                 part.state.matched(), frame == kCameraFrame};
+      addPart(scene, readMesh(files, part.mesh_unit), part.frame_from_mesh, scene_part,
               part.albedo.value_or(1.0));
     }
   }

@@ -40,8 +40,8 @@ MeshView heldView(const SceneMesh& scene);
 /// Appends a mesh as a new part; `frame_from_mesh` maps to the station frame or, for a part fixed
 /// to the camera, to the camera frame; after such a part no other may follow. InputError when the
 /// whole scene exceeds the limits of one mesh, or 65535 parts.
-void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
-             const ScenePart& part, double albedo = 1.0);
+void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh, const ScenePart& part,
+             double albedo = 1.0);
 
 /// Throws to reject a part, given its index in the list and the SHA-256 of its files.
 using PartCheck = std::function<void(std::size_t part, const std::string& sha256)>;

@@ -55,7 +55,7 @@ using Scenes = std::map<std::string, sessions::SceneMesh>;
 const sessions::SceneMesh& sceneOf(const sessions::Dataset& dataset, const std::string& station,
                                    Scenes& scenes) {
   if (!scenes.contains(station))
-    scenes[station] = sessions::readStationScene(dataset.stations.at(station));
+    scenes[station] = sessions::readScene(dataset.stations.at(station).parts);
   return scenes[station];
 }
 
@@ -139,7 +139,7 @@ class Measurement {
     const sessions::GrayImage image = sessions::readCaseImage(dataset, dataset_case);
     const cv::Mat picture(image.height, image.width, CV_8U,
                           const_cast<std::uint8_t*>(image.pixels.data()));
-    const cv::Mat object = silhouette(dataset.cameras.at(dataset_case.camera),
+    const cv::Mat object = silhouette(dataset.cameraOf(dataset_case),
                                       sceneOf(dataset, dataset_case.station, scenes).view(),
                                       *dataset_case.truth_camera_from_station);
     const sessions::SceneMesh sought = soughtScene(dataset, dataset_case, arguments_.wrong, scenes);
@@ -164,7 +164,7 @@ class Measurement {
     LocalizationProblem problem;
     problem.image = {picture.data, picture.cols, picture.rows,
                      static_cast<std::ptrdiff_t>(picture.step)};
-    problem.camera = dataset.cameras.at(dataset_case.camera);
+    problem.camera = dataset.cameraOf(dataset_case);
     problem.mesh = scene.view();
     problem.camera_from_station_seed = dataset_case.seed_camera_from_station;
     problem.uncertainty =

@@ -143,8 +143,7 @@ TEST(LocalizerMemory, RequiredBytes_GrowWithTheProblem) {
 /// Bytes of the caller's inputs.
 std::size_t inputBytes(const ProblemSize& size) {
   const auto pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-  const std::size_t mask = size.ignore ? pixels / 8 : 0;
-  return pixels + mask + static_cast<std::size_t>(size.vertices) * sizeof(Eigen::Vector3f) +
+  return pixels + static_cast<std::size_t>(size.vertices) * sizeof(Eigen::Vector3f) +
          static_cast<std::size_t>(size.faces) *
              (bytesPerFace(static_cast<std::size_t>(size.vertices)) + sizeof(std::uint16_t)) +
          static_cast<std::size_t>(size.parts) * sizeof(ScenePart);

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/match/bit_rows.h"
+#include "core/match/pixel_words.h"
 #include "tests/core/match/match_support.h"
 
 namespace boresight::test {

@@ -74,7 +74,7 @@ TEST(RotationGrid, Samples_AreApart) {
   for (std::size_t i = 0; i < samples.size(); i += 7)
     for (std::size_t j = 0; j < samples.size(); ++j)
       if (i != j) nearest = std::min(nearest, angleBetween(samples[i], samples[j]));
-  EXPECT_GT(nearest, 0.85 * RotationGrid::kSpacing_rad);
+  EXPECT_GT(nearest, 0.85 * 15.0 * kDegree_rad);
 }
 
 TEST(RotationGrid, SmallBoxes_HaveFewSamples) {

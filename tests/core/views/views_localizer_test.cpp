@@ -38,7 +38,9 @@ struct ViewsRun {
     problem.rig_from_station_seed = scene.seed;
     problem.uncertainty = scene.uncertainty;
     std::size_t bytes = 0;
-    if (ViewsLocalizer::requiredBytes(problem, options, bytes) == Status::kOk) memory.resize(bytes);
+    if (ViewsLocalizer::requiredBytes(problem, options, 1, Kernels::kPortable, bytes) ==
+        Status::kOk)
+      memory.resize(bytes);
     localizer = std::make_unique<ViewsLocalizer>(problem, options, memory);
   }
   const ViewsResult& finish() {

@@ -115,7 +115,7 @@ TEST_F(AgreementChecks, WithinRequirement_NeedsEveryMember) {
 }
 
 /// The checks "returned" and "competing".
-std::pair<Check, Check> convergencePair(const std::optional<ConvergenceResult>& convergence) {
+std::pair<Check, Check> convergencePair(const ConvergenceResult& convergence) {
   const auto checks = test::addedChecks(addConvergenceChecks, convergence, CheckLimits());
   EXPECT_EQ(checks.size(), 2u);
   return {findCheck(checks, "convergence_returned"), findCheck(checks, "convergence_competing")};

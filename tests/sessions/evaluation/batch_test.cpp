@@ -9,9 +9,12 @@
 #include "sessions/io/files/errors.h"
 #include "tests/support/example_case.h"
 #include "tests/support/matchers.h"
+#include "tests/support/run_batch.h"
 
 namespace boresight::sessions {
 namespace {
+
+using test::runBatch;
 
 Dataset exampleDataset() { return readDataset(test::exampleFolder() / "dataset.json"); }
 

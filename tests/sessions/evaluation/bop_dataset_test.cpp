@@ -71,7 +71,7 @@ TEST_F(BopDataset, ObjectsAreStationsAndInstancesCases) {
             Eigen::Vector3d(0.01, 0.02, 0.5));
   EXPECT_EQ(dataset_case.bop->scene_id, 2);
   EXPECT_EQ(dataset_case.bop->object_id, 1);
-  const Camera& camera = dataset.cameras.at(dataset.cases[1].camera);
+  const Camera& camera = dataset.cameraOf(dataset.cases[1]);
   EXPECT_EQ(camera.fx, 60.0);
   EXPECT_EQ(camera.fy, 61.0);
   EXPECT_EQ(camera.cx, 7.5);

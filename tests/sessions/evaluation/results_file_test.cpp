@@ -258,7 +258,7 @@ TEST_F(ResultsFile, ChangedByAnotherProgram_IsRefusedByReadersAndWriters) {
       "DROP TABLE tag; CREATE VIEW tag AS WITH RECURSIVE n(run) AS (SELECT 1 UNION ALL SELECT "
       "run FROM n) SELECT run, 'a' AS tag FROM n");
   EXPECT_THAT(readRefusal(), HasSubstr("its view \"tag\""));
-  EXPECT_THAT(folder_.message([&] { (void)StepReader(file_); }), HasSubstr("view"));
+  EXPECT_THAT(folder_.message([&] { readSteps(file_, {}); }), HasSubstr("view"));
   EXPECT_THAT(folder_.message([&] { forEachRun(file_, [](const RunResult&) {}); }),
               HasSubstr("its view \"tag\""));
   change("ALTER TABLE fact ADD COLUMN more TEXT DEFAULT 'x'");

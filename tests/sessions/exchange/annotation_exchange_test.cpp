@@ -30,7 +30,7 @@ class AnnotationExchange : public testing::Test {
   Pose solved(const std::string& id) const {
     return *solveCaseAnnotations(session_, id).camera_from_station();
   }
-  static CasePoses annotated(const Session& session, std::vector<std::string> ids = {}) {
+  static HandedPoses annotated(const Session& session, std::vector<std::string> ids = {}) {
     return annotatedPoses(session, ids);
   }
   std::string message(const std::function<void()>& call) const { return folder_.message(call); }
@@ -198,7 +198,7 @@ TEST_F(PoseExchange, EveryFile_StatesTheReviewStatus) {
   EXPECT_THAT(truth, AllOf(HasSubstr("\"remark\": \"validated by Ada\""),
                            HasSubstr("\"remark\": \"NOT VALIDATED: annotated\"")));
   // Another pose of a validated case is not the validated one.
-  CasePoses other = posesToHandOver(session_, {os_});
+  HandedPoses other = posesToHandOver(session_, {os_});
   other.poses[0].camera_from_station.translation_m.x() += 1e-9;
   exportColmap(session_, folder_ / "other", other);
   EXPECT_THAT(folder_.read("other/images.txt"),
@@ -219,7 +219,7 @@ TEST_F(PoseExchange, ResultsThatAreNotValidatedNeedANameThatSaysSo) {
 TEST_F(PoseExchange, PoseThatItsAnnotationsContradict_IsLeftOut) {
   session_.decisions.back().pose->camera_from_station.translation_m.z() = 0.5;
   EXPECT_THROW(posesToHandOver(session_, {os_}), InputError);
-  const CasePoses others = posesToHandOver(session_, {});
+  const HandedPoses others = posesToHandOver(session_, {});
   EXPECT_EQ(others.poses.size(), 1u);
   EXPECT_THAT(others.notes, ElementsAre(HasSubstr("the pose differs")));
 }

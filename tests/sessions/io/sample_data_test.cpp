@@ -42,7 +42,7 @@ TEST(SampleData, DatasetsCanBeReadWholeAndTheirTruthsLieWithinTheSeedsUncertaint
       EXPECT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width * image.height));
     }
     for (const auto& [id, station] : dataset.stations) {
-      const SceneMesh scene = readStationScene(station);
+      const SceneMesh scene = readScene(station.parts);
       EXPECT_EQ(validateMesh(scene.view()), Status::kOk) << id;
       const Eigen::Vector3d centre_m = matchedBounds(scene.view()).centre();
       for (const Case& dataset_case : dataset.cases) {

@@ -36,7 +36,6 @@ CaseAnnotationsSolution solutionWith(const std::map<std::size_t, double>& errors
   for (const auto& [index, error_px] : errors_px)
     scene.view.annotations.points[index].pixel->x() += error_px;
   sessions::CaseAnnotations annotations;
-  annotations.case_ids = {"a"};
   annotations.views = {scene.view};
   annotations.views[0].camera_from_rig = Pose();
   annotations.robust = robust;

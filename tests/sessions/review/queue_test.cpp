@@ -218,8 +218,9 @@ TEST(QueueOfExample, TheCsvHasALinePerCaseWhateverItHolds) {
 TEST(QueueOfExample, AThumbnailShowsTheStationsEdgesWhereTheImageHasThem) {
   const auto loaded = loadCase(*exampleQueue().cases[0]);
   const auto thumbnail = [&](const Pose& camera_from_station) {
-    return poseThumbnail(loaded->image.view(), loaded->source.camera, loaded->scene.view(),
-                         camera_from_station, 144, 108);
+    const OverlayLayer layer{"", camera_from_station, kResultColor, true};
+    return stationPicture(loaded->image.view(), loaded->source.camera, loaded->scene.view(),
+                          {&camera_from_station, 1}, {&layer, 1}, 144, 108);
   };
   const ColorImage picture = thumbnail(*loaded->source.camera_from_station_truth);
   EXPECT_LE(picture.width, 144);

@@ -64,9 +64,8 @@ class ValidatedPose : public testing::Test {
     limits.coverage_percent = 100.0;
     session_.review = withLimits(session_.review, limits);
     subject_ = reviewSubject(session_, sessions::loadCase(*session_.findCase(id_)), source);
-    std::optional<sessions::ConvergenceResult> convergence;
-    if (convergence_seeds > 0) convergence = convergenceTest(subject_, convergence_seeds);
-    const std::vector<sessions::Check> checks = checkPose(subject_, limits, convergence);
+    const std::vector<sessions::Check> checks =
+        checkPose(subject_, limits, convergenceTest(subject_, convergence_seeds));
     sessions::CheckWaivers waivers;
     for (const sessions::Check& check : checks)
       if (check.state == sessions::CheckState::kFailed) waivers[check.id] = "the shadow of the arm";

@@ -15,7 +15,7 @@ namespace boresight::sessions {
 namespace {
 
 constexpr int kSize = 200;
-constexpr PixelRegion kAll{0, 0, kSize - 1, kSize - 1};
+const PixelRegion kAll{Eigen::Vector2i(0, 0), Eigen::Vector2i(kSize - 1, kSize - 1)};
 
 /// Stripes 40 px wide of two gray levels, with ramps `ramp_px` long between them, and noise.
 struct Chart {
@@ -48,13 +48,14 @@ TEST(ImageQuality, ContrastOfTwoLevels_IsHalfTheirDifferenceAndClippedPixelsCoun
   Chart chart(60, 180, 1.0, 0.0);
   EXPECT_NEAR(chart.quality().contrast_gray, 60.0, 1.5);
   EXPECT_EQ(chart.quality().range_gray, 120.0);
-  EXPECT_FALSE(measureImageQuality(chart.view(), nullptr, {300, 300, 400, 400}));
+  EXPECT_FALSE(measureImageQuality(chart.view(), nullptr,
+                                   {Eigen::Vector2i(300, 300), Eigen::Vector2i(400, 400)}));
   EXPECT_FALSE(measureImageQuality(chart.view(), nullptr, {}));
   std::fill_n(chart.pixels.begin(), 10 * kSize, 0);
   std::fill_n(chart.pixels.begin() + 10 * kSize, 10 * kSize, 255);
   EXPECT_DOUBLE_EQ(chart.quality().black_share, 0.05);
   EXPECT_DOUBLE_EQ(chart.quality().saturated_share, 0.05);
-  EXPECT_EQ(chart.quality({0, 20, kSize - 1, kSize - 1}).saturated_share, 0.0);
+  EXPECT_EQ(chart.quality({Eigen::Vector2i(0, 20), kAll.max()}).saturated_share, 0.0);
 }
 
 TEST(ImageQuality, EdgeWidth_GrowsWithTheRamp) {
@@ -66,17 +67,17 @@ TEST(StationRegion, HoldsTheProjectionOfEveryVertexInTheImage) {
   const LocalizationProblem problem = test::osExample().problem();
   const PixelRegion region =
       stationRegion(problem.camera, problem.mesh, problem.camera_from_station_seed);
-  EXPECT_LT(region.x_min, region.x_max);
+  EXPECT_LT(region.min().x(), region.max().x());
   for (const Eigen::Vector3f& vertex : problem.mesh.vertices_in_station_m) {
     Eigen::Vector2d pixel;
     ASSERT_TRUE(
         project(problem.camera, problem.camera_from_station_seed * vertex.cast<double>(), pixel));
     const Eigen::Vector2d seen = pixel.cwiseMax(0.0).cwiseMin(
         Eigen::Vector2d(problem.camera.width - 1, problem.camera.height - 1));
-    EXPECT_GE(seen.x(), region.x_min);
-    EXPECT_LE(seen.x(), region.x_max);
-    EXPECT_GE(seen.y(), region.y_min);
-    EXPECT_LE(seen.y(), region.y_max);
+    EXPECT_GE(seen.x(), region.min().x());
+    EXPECT_LE(seen.x(), region.max().x());
+    EXPECT_GE(seen.y(), region.min().y());
+    EXPECT_LE(seen.y(), region.max().y());
   }
 }
 

@@ -72,7 +72,8 @@ TEST(InputConcern, IsThatOfTheRun) {
   SessionCase bad = good;
   bad.camera.width = 1000;
   EXPECT_EQ(refused(bad), InputKind::kCamera);
-  EXPECT_EQ(refused(withMeshUnit(good, "mm")), InputKind::kMesh);
+  const std::filesystem::path& mesh = good.parts.front().source.mesh;
+  EXPECT_EQ(refused(withInputFile(good, InputKind::kMesh, mesh, "mm")), InputKind::kMesh);
   bad = good;
   bad.camera_from_station_seed.translation_m.x() += 9.0;
   EXPECT_EQ(refused(bad), InputKind::kSeed);
@@ -92,7 +93,9 @@ TEST(WithInputFile, TakesTheFileInPlaceOfTheFormerOne) {
   nudged.has_seed = false;
   EXPECT_EQ(withInputFile(nudged, InputKind::kSeed, test::exampleFolder() / "os/seed.json"), os);
   EXPECT_EQ(withInputFile(os, InputKind::kCamera, test::exampleFolder() / "os/camera.json"), os);
-  EXPECT_EQ(withMeshUnit(withMeshUnit(os, "mm"), "m"), os);
+  const std::filesystem::path mesh = os.parts.front().source.mesh;
+  const SessionCase in_mm = withInputFile(os, InputKind::kMesh, mesh, "mm");
+  EXPECT_EQ(withInputFile(in_mm, InputKind::kMesh, mesh, "m"), os);
   EXPECT_THROW(
       (void)withInputFile(os, InputKind::kCamera, folder.write("c.json", std::string_view("{"))),
       InputError);

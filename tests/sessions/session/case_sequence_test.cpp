@@ -2,6 +2,7 @@
 #include "sessions/session/case_sequence.h"
 
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/base/math.h"
 #include "sessions/io/files/errors.h"
@@ -71,6 +72,15 @@ TEST_F(CaseSequenceTest, StrokesOfTheMask_HideTheStationInEveryFrame) {
   masked.session_case.ignore_strokes.push_back(stroke);
   const GrayImage image = readImage(masked.images / "0.png");
   EXPECT_FALSE(open(masked, &image).next()->completed);
+}
+
+TEST_F(CaseSequenceTest, MaskThatChangedSinceTheSession_IsRefused) {
+  SequenceOrder masked = order();
+  masked.session_case.ignore = {folder_ / "mask.png", "the hash of another file"};
+  const cv::Size size(masked.session_case.camera.width, masked.session_case.camera.height);
+  cv::imwrite(masked.session_case.ignore->file.string(), cv::Mat1b::zeros(size));
+  EXPECT_THAT(folder_.message([&] { (void)sequenceInputs(masked, {}); }),
+              HasSubstr("mask.png: its bytes differ from those of the session"));
 }
 
 TEST_F(CaseSequenceTest, SeedThatSeesNothing_IsRefusedByItsName) {

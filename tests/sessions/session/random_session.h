@@ -146,8 +146,8 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   return session_case;
 }
 
-inline sessions::Annotation randomAnnotation(Random& random) {
-  sessions::Annotation annotation;
+inline sessions::Annotations randomAnnotation(Random& random) {
+  sessions::Annotations annotation;
   for (std::uint32_t i = 1u + random.below(6); i > 0; --i) {
     sessions::PointPair& point = annotation.points.emplace_back();
     point.id = "p" + std::to_string(i);

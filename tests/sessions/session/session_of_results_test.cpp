@@ -10,10 +10,13 @@
 #include "sessions/session/case_run.h"
 #include "tests/support/example_case.h"
 #include "tests/support/matchers.h"
+#include "tests/support/run_batch.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
+
+using test::runBatch;
 
 using std::string_literals::operator""s;
 

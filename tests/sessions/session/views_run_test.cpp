@@ -11,6 +11,7 @@
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/session_file.h"
+#include "sessions/trace/run_text.h"
 #include "tests/sessions/session/example_session.h"
 #include "tests/support/matchers.h"
 #include "tests/support/turned_view.h"

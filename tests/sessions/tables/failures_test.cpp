@@ -11,12 +11,14 @@
 #include "tests/sessions/tables/pixels_like.h"
 #include "tests/support/example_case.h"
 #include "tests/support/matchers.h"
+#include "tests/support/run_batch.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
+using test::runBatch;
 
 PoseError off(double lateral_mm, double geodesic_mrad) {
   return {0.0, lateral_mm, 0.0, 0.0, geodesic_mrad, std::nullopt};

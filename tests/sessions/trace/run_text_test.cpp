@@ -5,8 +5,6 @@
 
 #include "core/base/math.h"
 #include "sessions/text/text_table.h"
-#include "sessions/trace/acceptance.h"
-#include "sessions/trace/run_headline.h"
 #include "tests/support/example_run.h"
 #include "tests/support/matchers.h"
 

@@ -31,7 +31,7 @@ class AnnotationPanelTest : public AnnotationTest {
   QString headline() { return find<QLabel>("headline").text(); }
   QString summary() { return find<QTextBrowser>("solution").toPlainText(); }
   void clickCell(int row, int column) {
-    QTableView& table = panel_->table();
+    QTableView& table = find<QTableView>("annotations");
     QTest::mouseClick(table.viewport(), Qt::LeftButton, {},
                       table.visualRect(table.model()->index(row, column)).center());
   }
@@ -117,24 +117,25 @@ TEST_F(AnnotationPanelTest, Table_SelectsMovesTurnsOffRemovesAndLeadsToTheImage)
   ASSERT_TRUE(document_.undo());
   EXPECT_TRUE(points[2].enabled);
   controller_.select(ids[4]);
-  EXPECT_EQ(panel_->table().currentIndex().row(), 4) << "the table follows the other views";
-  QAbstractItemModel& model = *panel_->table().model();
+  EXPECT_EQ(find<QTableView>("annotations").currentIndex().row(), 4)
+      << "the table follows the other views";
+  QAbstractItemModel& model = *find<QTableView>("annotations").model();
   ASSERT_TRUE(model.setData(model.index(1, AnnotationsModel::kComment), QStringLiteral("rim")));
   EXPECT_EQ(points[1].comment, "rim");
 
   clickCell(2, AnnotationsModel::kName);
   const Vector2d before = *points[2].pixel;
-  QTest::keyClick(&panel_->table(), Qt::Key_Right);
-  QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ShiftModifier);
+  QTest::keyClick(&find<QTableView>("annotations"), Qt::Key_Right);
+  QTest::keyClick(&find<QTableView>("annotations"), Qt::Key_Down, Qt::ShiftModifier);
   EXPECT_EQ(controller_.selected(), ids[2]);
   EXPECT_LT((*points[2].pixel - before - Vector2d(0.1, 1.0)).norm(), 1e-9);
-  QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ControlModifier);
+  QTest::keyClick(&find<QTableView>("annotations"), Qt::Key_Down, Qt::ControlModifier);
   EXPECT_EQ(controller_.selected(), ids[3]);
 
   controller_.setMode(PlaceMode::kOff);
   QSignalSpy requested(panel_.get(), &AnnotationPanel::imageRequested);
   clickCell(2, AnnotationsModel::kName);
-  QTest::keyClick(&panel_->table(), Qt::Key_Return);
+  QTest::keyClick(&find<QTableView>("annotations"), Qt::Key_Return);
   EXPECT_GE(requested.count(), 1);
   EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);
   EXPECT_EQ(controller_.selected(), ids[2]);
@@ -202,7 +203,7 @@ TEST_F(AnnotationPanelTest, LinkedCases_AreSolvedTogether) {
   second.id = "second image";
   ASSERT_TRUE(document_.edit(sessions::withCase(document_.session(), second),
                              QStringLiteral("Add a case")));
-  auto& menu = static_cast<RigMenu&>(*find<QToolButton>("rig").menu());
+  QMenu& menu = *find<QToolButton>("rig").menu();
   const auto trigger = [&](const QString& text) {
     Q_EMIT menu.aboutToShow();
     const auto actions = menu.findChildren<QAction*>();

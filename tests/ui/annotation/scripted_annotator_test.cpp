@@ -41,7 +41,7 @@ class ScriptedAnnotator : public test::WindowTest,
     sessions::Session session = sessions::makeSession(dataset);
     session.cases.eraseIf([&](const auto& item) { return item->station != station; });
     ASSERT_FALSE(session.cases.empty());
-    session.cases.resize(1);
+    session.cases = std::vector{session.cases.front()};
     ASSERT_TRUE(window_.document().create(file_, session));
     tool_ = &window_.findChild<ImageAnnotation*>()->tool();
     snapper_ = window_.findChild<StationSnapper*>();

@@ -6,6 +6,7 @@
 #include "sessions/evaluation/results_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_of_results.h"
+#include "tests/support/run_batch.h"
 #include "tests/ui/review/review_fixture.h"
 #include "tests/ui/window_test.h"
 #include "ui/workspaces/workspaces.h"
@@ -302,7 +303,7 @@ TEST_F(ResultsQueueTest, RunsAreListedChosenAndRepeatedToTheBit_NoResultsAreRepo
   options.localizer.search.enabled = false;
   options.localizer.loop.max_iterations = 1;
   options.reseeds = 1;
-  const std::vector<sessions::RunResult> runs = sessions::runBatch(dataset, options, {});
+  const std::vector<sessions::RunResult> runs = test::runBatch(dataset, options, {});
   const std::filesystem::path results = folder_ / "results.sqlite";
   {
     sessions::ResultsWriter writer(results, sessions::datasetFacts(dataset));

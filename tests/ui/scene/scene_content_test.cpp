@@ -134,10 +134,7 @@ TEST(SharpEdges, OfACubeAreItsTwelve) {
     std::swap(cube.faces[inwards].vertex[0], cube.faces[inwards].vertex[1]);
   const auto edges = sharpEdges(cube.view());
   EXPECT_EQ(edges.size(), 12u);
-  const auto corner = [&cube](std::int32_t vertex) {
-    return cube.vertices_in_station_m[static_cast<std::size_t>(vertex)];
-  };
-  for (const auto& edge : edges) EXPECT_EQ((corner(edge[0]) - corner(edge[1])).norm(), 1.0F);
+  for (const SceneLine& edge : edges) EXPECT_EQ((edge.first - edge.second).norm(), 1.0);
 }
 
 /// Two squares behind each other, seen from straight ahead: the near one is smaller.

@@ -39,7 +39,13 @@ class ScenePixels : public ::testing::Test {
   QImage canvasShot(const char* name) {
     return shot(name).copy(QRect(view_.canvas()->pos(), view_.canvas()->size()));
   }
-  void show(bool mesh, bool points) { view_.setShown({mesh, false, false, false, points, false}); }
+  void show(bool mesh, bool points) {
+    const QMenu* show = view_.findChild<QToolButton*>(QStringLiteral("show"))->menu();
+    for (QAction* action : show->actions())
+      if (action->isCheckable())
+        action->setChecked((mesh && action->text() == QStringLiteral("Mesh")) ||
+                           (points && action->text() == QStringLiteral("Template points")));
+  }
 
   /// With the image, which would else arrive between two pictures.
   void lookThroughCamera() {

@@ -39,6 +39,11 @@ class SceneViewTest : public ::testing::Test {
   }
   void wheel(const QPointF& at, int notches) { test::turnWheel(*view_.canvas(), at, notches); }
   void press(Qt::Key key) { QTest::keyClick(view_.canvas(), key); }
+  void hidePoints() {
+    const QMenu* show = view_.findChild<QToolButton*>(QStringLiteral("show"))->menu();
+    for (QAction* action : show->actions())
+      if (action->text() == QStringLiteral("Template points")) action->setChecked(false);
+  }
   const OrbitCamera& orbit() { return view_.navigation().orbit(); }
 
   QString readout() const {
@@ -65,7 +70,7 @@ TEST_F(SceneViewTest, AClickSelectsTheTemplateUnderIt) {
 }
 
 TEST_F(SceneViewTest, HoveringAndAClickOnTheMeshTellThePlaceOfTheStation) {
-  view_.setShown({.points = false});
+  hidePoints();
   const QPoint at = onCanvas(view_.content().bounds.centre());
   std::optional<Eigen::Vector3d> hovered;
   QObject::connect(&view_, &SceneView::stationPlaceHovered, &view_,
@@ -89,7 +94,7 @@ TEST_F(SceneViewTest, HoveringAndAClickOnTheMeshTellThePlaceOfTheStation) {
 }
 
 TEST_F(SceneViewTest, ADoubleClickShowsTheWholeScene) {
-  view_.setShown({.points = false});
+  hidePoints();
   wheel({300, 240}, 2);
   const double near_m = orbit().distance_m();
   const QPoint at = onCanvas(view_.content().bounds.centre());
@@ -140,7 +145,8 @@ TEST_F(SceneViewTest, ThroughTheCameraTheMeshLiesOnTheImage_TheWheelKeepsThePixe
   const QPointF after = view_.navigation().image().toPixel(mouse);
   EXPECT_NEAR(after.x(), before.x(), 1e-9);
   EXPECT_NEAR(after.y(), before.y(), 1e-9);
-  view_.setThroughRole(PoseRole::kTruth);
+  view_.findChild<QComboBox*>(QStringLiteral("throughRole"))
+      ->setCurrentText(QStringLiteral("truth"));
   const Viewpoint view = view_.viewpoint();
   EXPECT_EQ(view.view_from_station.translation_m,
             test::sceneCase()->source.camera_from_station_truth->translation_m);

@@ -179,13 +179,14 @@ TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
   CommandPalette palette(find<QMenuBar>("menuBar"), &window_);
   palette.show();
   auto* line = palette.findChild<QLineEdit*>(QStringLiteral("commandLine"));
+  const auto* found = palette.findChild<QListWidget*>(QStringLiteral("commands"));
   QTest::keyClicks(line, QStringLiteral("step iter"));
-  ASSERT_FALSE(palette.names().isEmpty());
+  ASSERT_GT(found->count(), 0);
   EXPECT_TRUE(
-      palette.names().front().endsWith(action("stepIteration").text().remove(QLatin1Char('&'))));
+      found->item(0)->text().contains(action("stepIteration").text().remove(QLatin1Char('&'))));
   line->clear();
   QTest::keyClicks(line, QStringLiteral("nudge seed"));
-  ASSERT_FALSE(palette.names().isEmpty());
+  ASSERT_GT(found->count(), 0);
   QTest::keyClick(line, Qt::Key_Return);
   QCoreApplication::processEvents();
   EXPECT_FALSE(palette.isVisible());

@@ -62,10 +62,10 @@ TEST(DroppedFiles, AnotherImageWithItsFiles_StartsANewCase) {
   const std::filesystem::path bc = test::exampleFolder() / "bc", os = test::exampleFolder() / "os";
   const DroppedFiles failed =
       classify({bc / "image.png", bc / "camera.json", bc / "model.ply", bc / "seed.json"});
-  EXPECT_TRUE(classify({os / "image.png", os / "seed.json"}).beginsAnew(failed));
-  EXPECT_FALSE(classify({os / "image.png"}).beginsAnew(failed)) << "the image that was wrong";
-  EXPECT_FALSE(classify({os / "camera.json", os / "seed.json"}).beginsAnew(failed));
-  EXPECT_FALSE(classify({os / "image.png", os / "seed.json"}).beginsAnew({}));
+  EXPECT_TRUE(classify({os / "image.png", os / "seed.json"}).startsNewCase(failed));
+  EXPECT_FALSE(classify({os / "image.png"}).startsNewCase(failed)) << "the image that was wrong";
+  EXPECT_FALSE(classify({os / "camera.json", os / "seed.json"}).startsNewCase(failed));
+  EXPECT_FALSE(classify({os / "image.png", os / "seed.json"}).startsNewCase({}));
   EXPECT_EQ(classify({os / "camera.json"}).keptNames(failed), "image.png, model.ply, seed.json");
   EXPECT_EQ(classify({os / "camera.json"}).keptNames({}), "");
 }

@@ -99,7 +99,7 @@ TEST_F(MainWindowTest, CaseMenu_RemovesACaseWhichAnUndoBringsBack) {
   openExample();
   const std::string id = session().cases.back()->id;
   const auto act = [&](const char* name) {
-    const auto menu = window_.findChild<CaseMenu*>()->of(fromText(id));
+    const auto menu = caseMenu(fromText(id), window_.parts(), window_.workspaces(), window_);
     menu->findChild<QAction*>(QLatin1String(name))->trigger();
   };
   act("caseName");

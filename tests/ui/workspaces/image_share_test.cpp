@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/window/image_share.h"
+#include "ui/window/application.h"
 
 #include <cstdio>
 

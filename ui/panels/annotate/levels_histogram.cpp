@@ -18,19 +18,19 @@ constexpr double kHandle = 6.0;
 
 }  // namespace
 
-LevelsHistogram::LevelsHistogram(DisplayImage& display, QWidget* parent)
-    : QWidget(parent), display_(display) {
+LevelsHistogram::LevelsHistogram(DisplayImage& display) : display_(display) {
   setObjectName(QStringLiteral("histogram"));
   setMinimumHeight(72);
   setToolTip(
       tr("Drag the handles: levels below the first are shown black, levels above the second white. "
          "Display only: runs do not change."));
   setAccessibleName(tr("Histogram of the gray levels"));
-  connect(&display_, &DisplayImage::levelsChanged, this, [this] {
+  const auto follow = [this] {
     setEnabled(display_.samples() && !display_.showsCore());
     update();
-  });
-  setEnabled(display_.samples() && !display_.showsCore());
+  };
+  connect(&display_, &DisplayImage::levelsChanged, this, follow);
+  follow();
 }
 
 int LevelsHistogram::largest() const {
@@ -63,9 +63,8 @@ void LevelsHistogram::paintEvent(QPaintEvent*) {
     painter.drawRect(QRectF(area.left() + static_cast<double>(i) * bin, area.bottom() - high,
                             std::max(bin, 1.0), high));
   }
-  for (const int level : {display_.levels().black, display_.levels().white}) {
-    const bool black = level == display_.levels().black;
-    const double x = xOf(level);
+  for (const bool black : {true, false}) {
+    const double x = xOf(black ? display_.levels().black : display_.levels().white);
     painter.setPen(QPen(QColor(theme().accent), 1.5));
     painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
     painter.setBrush(black ? Qt::black : Qt::white);

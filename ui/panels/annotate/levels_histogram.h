@@ -16,7 +16,7 @@ class LevelsHistogram : public QWidget {
   Q_OBJECT
 
  public:
-  explicit LevelsHistogram(DisplayImage& display, QWidget* parent = nullptr);
+  explicit LevelsHistogram(DisplayImage& display);
 
   QSize sizeHint() const override { return {240, 96}; }
   /// Position of a gray level on the widget.

@@ -5,6 +5,7 @@
 
 #include "ui/panels/annotate/levels_histogram.h"
 #include "ui/views/display_image.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -14,18 +15,9 @@ enum Rule { kLinear, kLevels, kTable };
 
 }  // namespace
 
-LevelsPanel::LevelsPanel(DisplayImage& display, QWidget* parent)
-    : QWidget(parent), display_(display) {
+LevelsPanel::LevelsPanel(DisplayImage& display) : display_(display) {
   ui_.setupUi(this);
   ui_.layout2->insertRow(1, new LevelsHistogram(display));
-  ui_.conversionWholeCamera->hide();  // until there are other cases
-  connectDisplay();
-  connectConversion();
-  showLevels();
-  setCase(nullptr, nullptr, 0);
-}
-
-void LevelsPanel::connectDisplay() {
   connect(&display_, &DisplayImage::levelsChanged, this, &LevelsPanel::showLevels);
   connect(ui_.showCore, &QCheckBox::toggled, &display_, &DisplayImage::setShowsCore);
   const auto change = [this] {
@@ -35,11 +27,7 @@ void LevelsPanel::connectDisplay() {
     connect(box, QOverload<int>::of(&QSpinBox::valueChanged), this, change);
   connect(ui_.automaticLevels, &QPushButton::clicked, &display_, &DisplayImage::setAutomaticLevels);
   connect(ui_.fullLevels, &QPushButton::clicked, &display_, &DisplayImage::setFullLevels);
-}
-
-void LevelsPanel::connectConversion() {
-  connect(ui_.conversionKind, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-          &LevelsPanel::updateConversion);
+  connect(ui_.conversionKind, kIndexChanged, this, &LevelsPanel::updateConversion);
   for (QSpinBox* box : {ui_.conversionBits, ui_.conversionBlack, ui_.conversionWhite})
     connect(box, QOverload<int>::of(&QSpinBox::valueChanged), this, &LevelsPanel::updateConversion);
   connect(ui_.conversionFromDisplay, &QPushButton::clicked, this, [this] {
@@ -52,6 +40,8 @@ void LevelsPanel::connectConversion() {
     Q_EMIT conversionRequested(chosenConversion(), ui_.conversionWholeCamera->isEnabled() &&
                                                        ui_.conversionWholeCamera->isChecked());
   });
+  showLevels();
+  setCase(nullptr, nullptr, 0);
 }
 
 int LevelsPanel::sampleBits() const {
@@ -59,8 +49,7 @@ int LevelsPanel::sampleBits() const {
 }
 
 void LevelsPanel::showLevels() {
-  const bool ready = display_.samples() != nullptr;
-  const bool stretched = ready && !display_.showsCore();
+  const bool stretched = display_.samples() && !display_.showsCore();
   for (QWidget* each : std::initializer_list<QWidget*>{ui_.displayBlack, ui_.displayWhite,
                                                        ui_.automaticLevels, ui_.fullLevels})
     each->setEnabled(stretched);
@@ -80,10 +69,10 @@ void LevelsPanel::showLevels() {
 void LevelsPanel::setCase(const sessions::SessionCase* session_case,
                           const sessions::GrayImage* image, int cases_of_camera) {
   const int bits = image ? image->bit_depth : 8;
-  const bool same_rule = session_case ? current_ == session_case->image.eight_bit : !current_;
-  const bool keeps = same_rule && cases_of_camera == cases_of_camera_ && bits == current_bits_;
-  current_.reset();
-  if (session_case) current_ = session_case->image.eight_bit;
+  const auto rule = session_case ? std::optional(session_case->image.eight_bit) : std::nullopt;
+  const bool keeps =
+      rule == current_ && cases_of_camera == cases_of_camera_ && bits == current_bits_;
+  current_ = rule;
   current_bits_ = bits;
   bits_of_label_ = image && image->bit_depth_of_label;
   cases_of_camera_ = cases_of_camera;
@@ -103,12 +92,8 @@ void LevelsPanel::showConversion() {
   ui_.conversionWholeCamera->setText(tr("Also the camera's %1 other cases").arg(cases_of_camera_));
   if (current_) {
     const bool by_table = !current_->table.empty();
-    if (by_table != (ui_.conversionKind->count() == 3)) {
-      if (by_table)
-        ui_.conversionKind->addItem(tr("A given table"));
-      else
-        ui_.conversionKind->removeItem(kTable);
-    }
+    ui_.conversionKind->removeItem(kTable);
+    if (by_table) ui_.conversionKind->addItem(tr("A given table"));
     ui_.conversionKind->setCurrentIndex(by_table ? kTable : current_->levels ? kLevels : kLinear);
     ui_.conversionBits->setValue(current_->bit_depth.value_or(current_bits_));
     const int largest = (1 << ui_.conversionBits->value()) - 1;
@@ -118,7 +103,6 @@ void LevelsPanel::showConversion() {
     ui_.conversionBlack->setValue(levels.black);
     ui_.conversionWhite->setValue(levels.white);
   }
-  updateConversion();
 }
 
 sessions::ImageReadOptions LevelsPanel::chosenConversion() const {
@@ -140,8 +124,8 @@ void LevelsPanel::updateConversion() {
   const bool editable = current_.has_value();
   const bool by_levels = ui_.conversionKind->currentIndex() == kLevels;
   const int largest = (1 << ui_.conversionBits->value()) - 1;
-  ui_.conversionBlack->setMaximum(std::max(0, largest - 1));
-  ui_.conversionWhite->setMaximum(std::max(1, largest));
+  ui_.conversionBlack->setMaximum(largest - 1);
+  ui_.conversionWhite->setMaximum(largest);
   ui_.conversionKind->setEnabled(editable);
   ui_.conversionBits->setEnabled(editable && ui_.conversionKind->currentIndex() != kTable);
   for (QWidget* each : {ui_.conversionBlack, ui_.conversionWhite})

@@ -18,7 +18,7 @@ class LevelsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit LevelsPanel(DisplayImage& display, QWidget* parent = nullptr);
+  explicit LevelsPanel(DisplayImage& display);
 
   /// nullptr: no conversion can be edited. `image` is the case's image as read, with the rule and
   /// depth in force, which a label may have stated.
@@ -31,8 +31,6 @@ class LevelsPanel : public QWidget {
                            bool whole_camera);
 
  private:
-  void connectDisplay();
-  void connectConversion();
   void showLevels();
   void showConversion();
   void updateConversion();

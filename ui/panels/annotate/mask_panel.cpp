@@ -7,14 +7,11 @@
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
-namespace {
 
 using sessions::MaskStroke;
 using sessions::MaskStrokes;
 
-}  // namespace
-
-MaskPanel::MaskPanel(MaskEditor& editor, QWidget* parent) : QWidget(parent), editor_(editor) {
+MaskPanel::MaskPanel(MaskEditor& editor) : editor_(editor) {
   ui_.setupUi(this);
   ui_.takeStroke->setMenu(new QMenu(ui_.takeStroke));
   (new EmptyHint(*ui_.strokes))
@@ -96,9 +93,8 @@ void MaskPanel::updateButtons() {
   for (QWidget* each : std::initializer_list<QWidget*>{
            ui_.brush, ui_.polygon, ui_.erase, ui_.brushSize, ui_.saturationLevel, ui_.saturated})
     each->setEnabled(open);
-  ui_.nameStroke->setEnabled(chosen() >= 0);
+  for (QPushButton* each : {ui_.nameStroke, ui_.removeStroke}) each->setEnabled(chosen() >= 0);
   ui_.copyStroke->setEnabled(chosen() >= 0 && cases_of_camera_ > 0);
-  ui_.removeStroke->setEnabled(chosen() >= 0);
   ui_.takeStroke->setEnabled(!named_.empty());
   ui_.clearMask->setEnabled(open && case_->ignore_strokes != sessions::clearedStrokes(*case_));
 }
@@ -113,7 +109,6 @@ void MaskPanel::askForSaturated() {
 }
 
 void MaskPanel::nameChosen() {
-  if (!case_ || chosen() < 0) return;
   MaskStrokes strokes = case_->ignore_strokes;
   std::string& name = strokes[static_cast<std::size_t>(chosen())].name;
   bool accepted = false;
@@ -126,7 +121,6 @@ void MaskPanel::nameChosen() {
 }
 
 void MaskPanel::removeChosen() {
-  if (!case_ || chosen() < 0) return;
   MaskStrokes strokes = case_->ignore_strokes;
   strokes.erase(strokes.begin() + chosen());
   Q_EMIT strokesRequested(strokes, tr("Remove a stroke of the ignore mask"));

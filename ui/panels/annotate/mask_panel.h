@@ -19,7 +19,7 @@ class MaskPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit MaskPanel(MaskEditor& editor, QWidget* parent = nullptr);
+  explicit MaskPanel(MaskEditor& editor);
 
   /// nullptr: nothing can be edited. `named` are strokes that other cases of the camera offer.
   void setCase(const sessions::SessionCase* session_case, const sessions::MaskStrokes& named,

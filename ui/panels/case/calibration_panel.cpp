@@ -23,11 +23,15 @@ QStringList rowOf(const sessions::CalibratedValue& value) {
   name[0] = name[0].toUpper();
   if (!value.unit.empty()) name += QStringLiteral(", ") + fromText(value.unit);
   QStringList row = {name, figureText(value, value.before)};
-  if (!value.isDetermined())
-    return row << QStringLiteral("\u2013") << CalibrationPanel::tr("not determined")
-               << QStringLiteral("\u2013");
+  const QString none = QStringLiteral("\u2013");
+  if (!value.isDetermined()) return row << none << CalibrationPanel::tr("not determined") << none;
   return row << figureText(value, value.after) << figureText(value, value.sigma)
              << numberText(value.changeInSigmas(), 1);
+}
+
+QString purpose() {
+  return CalibrationPanel::tr(
+      "Estimates the camera from many images of the station, annotated or localized.");
 }
 
 QString summaryText(const sessions::CameraCalibration& calibration,
@@ -49,32 +53,28 @@ QString summaryText(const sessions::CameraCalibration& calibration,
 
 }  // namespace
 
-CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRunner& tasks,
-                                   QWidget* parent)
-    : QWidget(parent), document_(document), state_(state), tasks_(tasks) {
+CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRunner& tasks)
+    : document_(document), state_(state), tasks_(tasks) {
   ui_.setupUi(this);
-  styleTable(*ui_.parameters);
-  ui_.parameters->setObjectName(QStringLiteral("calibrationParameters"));
-  ui_.parameters->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  styleTable(*ui_.calibrationParameters);
+  ui_.calibrationParameters->horizontalHeader()->setSectionResizeMode(
+      QHeaderView::ResizeToContents);
   connect(ui_.calibrate, &QPushButton::clicked, this, &CalibrationPanel::calibrate);
   connect(ui_.use, &QPushButton::clicked, this, &CalibrationPanel::use);
   state_.onChange(ViewChange::kCase, this, [this] {
     const std::string shown = shownCaseId(document_, state_);
-    if (shown != case_id_ || !calibration_) forget({});
+    if (shown != case_id_ || !calibration_) forget(purpose());
   });
-  forget({});
+  forget(purpose());
 }
 
-/// What was found is of another camera, or nothing was found.
+/// Drops the calibration: it is of another camera, or there is none.
 void CalibrationPanel::forget(const QString& reason) {
   calibration_.reset();
-  ui_.parameters->setRowCount(0);
+  ui_.calibrationParameters->setRowCount(0);
   ui_.use->setEnabled(false);
   ui_.calibrate->setEnabled(state_.currentCase() != nullptr);
-  ui_.summary->setText(
-      !reason.isEmpty()
-          ? reason
-          : tr("Estimates the camera from many images of the station, annotated or localized."));
+  ui_.summary->setText(reason);
 }
 
 void CalibrationPanel::calibrate() {
@@ -82,19 +82,17 @@ void CalibrationPanel::calibrate() {
                                       ui_.distortion->isChecked()};
   const auto source = ui_.source->currentIndex() == 0 ? sessions::ObservationSource::kAnnotations
                                                       : sessions::ObservationSource::kRuns;
-  const std::string id = shownCaseId(document_, state_);
-  const sessions::SessionCase* shown = document_.session().findCase(id);
+  const sessions::SessionCase* shown = shownCase(document_, state_);
   if (shown == nullptr) return;
   forget(tr("Calibrating ..."));
   ui_.calibrate->setEnabled(false);
   tasks_.start(
       QStringLiteral("calibration"),
-      [session = document_.session(), id, source, free](const std::stop_token&) {
+      [session = document_.session(), id = shown->id, source, free](const std::stop_token&) {
         return sessions::calibrateCameraOf(session, id, source, free);
       },
-      [this, id, before = shown->camera](const sessions::CameraCalibration& calibration) {
-        take(id, before, calibration);
-      },
+      [this, id = shown->id, before = shown->camera](
+          const sessions::CameraCalibration& calibration) { take(id, before, calibration); },
       [this](const QString& problem) { forget(tr("Not calibrated: %1.").arg(problem)); });
 }
 
@@ -104,7 +102,8 @@ void CalibrationPanel::take(const std::string& case_id, const Camera& before,
   forget(summaryText(calibration, values));
   calibration_ = calibration;
   case_id_ = case_id;
-  for (const sessions::CalibratedValue& value : values) addRow(*ui_.parameters, rowOf(value));
+  for (const sessions::CalibratedValue& value : values)
+    addRow(*ui_.calibrationParameters, rowOf(value));
   ui_.use->setEnabled(calibration.undetermined.empty());
 }
 

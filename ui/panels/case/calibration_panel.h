@@ -22,8 +22,7 @@ class CalibrationPanel : public QWidget {
   Q_OBJECT
 
  public:
-  CalibrationPanel(Document& document, ViewState& state, TaskRunner& tasks,
-                   QWidget* parent = nullptr);
+  CalibrationPanel(Document& document, ViewState& state, TaskRunner& tasks);
 
  private:
   void calibrate();

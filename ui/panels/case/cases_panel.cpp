@@ -2,13 +2,13 @@
 #include "ui/panels/case/cases_panel.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <QIcon>
 #include <QPixmap>
 #include <QtWidgets>
 
+#include "sessions/text/units.h"
 #include "ui/style/icons.h"
 #include "ui/widgets/widgets.h"
 
@@ -35,9 +35,7 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
   using Row = const CaseRow&;
   constexpr auto tr = [](const char* text) { return CasesModel::tr(text); };
   const auto error = [](std::optional<double> CaseRow::*value) {
-    return [value](Row row) {
-      return (row.*value).value_or(std::numeric_limits<double>::quiet_NaN());
-    };
+    return [value](Row row) { return (row.*value).value_or(sessions::kUnknown); };
   };
   return {
       {tr("Case"), tr("The image's name."), -1, [](Row row) { return row.id; }},
@@ -65,31 +63,6 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
   };
 }
 
-}  // namespace
-
-CasesModel::CasesModel(QObject* parent) : RowsModel(caseColumns(), parent) {}
-
-void CasesModel::setRows(std::vector<CaseRow> rows) {
-  if (rows != this->rows())
-    setRowsByKey(std::move(rows), [](const CaseRow& row) { return row.id; });
-}
-
-int CasesModel::rowOf(const QString& id) const {
-  return firstRow([&id](const CaseRow& row) { return row.id == id; });
-}
-
-QString CasesModel::stateText(CaseState state) {
-  return tr(kStateTexts[static_cast<std::size_t>(state)]);
-}
-
-QVariant CasesModel::look(const CaseRow& row, int column, int role) const {
-  if (role == Qt::ToolTipRole) return tooltipOf(row);
-  if (role != Qt::DecorationRole || column != kCase || row.thumbnail.isNull()) return {};
-  return pictureIcon(row.thumbnail);  // drawn in the view's size
-}
-
-namespace {
-
 constexpr int kThumbnail_px = 40;
 constexpr int kUsualName = 20;      ///< letters
 constexpr int kMeasuredRows = 100;  ///< of a list of thousands, for the widths of columns
@@ -111,15 +84,35 @@ class NameAndState final : public QStyledItemDelegate {
 
 }  // namespace
 
-CasesPanel::CasesPanel(QWidget* parent) : QWidget(parent) {
+CasesModel::CasesModel() : RowsModel(caseColumns()) {}
+
+void CasesModel::setRows(std::vector<CaseRow> rows) {
+  if (rows != this->rows())
+    setRowsByKey(std::move(rows), [](const CaseRow& row) { return row.id; });
+}
+
+int CasesModel::rowOf(const QString& id) const {
+  return firstRow([&id](const CaseRow& row) { return row.id == id; });
+}
+
+QString CasesModel::stateText(CaseState state) {
+  return tr(kStateTexts[static_cast<std::size_t>(state)]);
+}
+
+QVariant CasesModel::look(const CaseRow& row, int column, int role) const {
+  if (role == Qt::ToolTipRole) return tooltipOf(row);
+  if (role != Qt::DecorationRole || column != kCase || row.thumbnail.isNull()) return {};
+  return pictureIcon(row.thumbnail);  // drawn in the view's size
+}
+
+CasesPanel::CasesPanel() {
   filter_.setSourceModel(&model_);
   ui_.setupUi(this);
   for (int i = 0; i < kCaseStateCount; ++i)
     ui_.state->addItem(CasesModel::stateText(static_cast<CaseState>(i)));
   buildTable();
   connect(ui_.text, &QLineEdit::textChanged, this, &CasesPanel::applyFilter);
-  connect(ui_.state, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-          &CasesPanel::applyFilter);
+  connect(ui_.state, kIndexChanged, this, &CasesPanel::applyFilter);
   connect(ui_.run, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(chosen()); });
   connect(ui_.runAll, &QPushButton::clicked, this, [this] { Q_EMIT runAllRequested(listed()); });
   showCount();
@@ -138,7 +131,6 @@ void CasesPanel::applyFilter() {
 }
 
 void CasesPanel::buildTable() {
-  ui_.cases->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(ui_.cases, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
     const QModelIndex index = ui_.cases->indexAt(at);
     if (index.isValid())
@@ -165,12 +157,10 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   whole_case_ = ui_.cases->columnWidth(CasesModel::kCase);
   // Headers would keep room for the sign of the order in every column.
   const QFontMetrics metrics = ui_.cases->fontMetrics();
-  for (const int error :
-       {CasesModel::kNormal_mm, CasesModel::kLateral_mm, CasesModel::kRotation_deg})
-    ui_.cases->setColumnWidth(error,
-                              std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
-                                       metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
-                                  13);
+  const int error = std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
+                             metrics.horizontalAdvance(QStringLiteral("-00.000")));
+  for (int column = CasesModel::kNormal_mm; column <= CasesModel::kRotation_deg; ++column)
+    ui_.cases->setColumnWidth(column, error + 13);
   fitCaseColumn();
   setCurrent(current_);
 }
@@ -201,11 +191,7 @@ void CasesPanel::resizeEvent(QResizeEvent* event) {
 
 void CasesPanel::setCurrent(const QString& id) {
   current_ = id;
-  showing_ = true;
-  const QModelIndex row = filter_.mapFromSource(model_.index(model_.rowOf(id), 0));
-  ui_.cases->setCurrentIndex(row);
-  if (row.isValid()) ui_.cases->scrollTo(row);
-  showing_ = false;
+  followRow(*ui_.cases, filter_.mapFromSource(model_.index(model_.rowOf(id), 0)), showing_);
   showCount();
 }
 

@@ -51,7 +51,7 @@ class CasesModel : public RowsModel<CaseRow> {
  public:
   enum Column { kCase, kState, kNormal_mm, kLateral_mm, kRotation_deg };
 
-  explicit CasesModel(QObject* parent = nullptr);
+  CasesModel();
 
   void setRows(std::vector<CaseRow> rows);
   /// -1 when there is none.
@@ -68,7 +68,7 @@ class CasesPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit CasesPanel(QWidget* parent = nullptr);
+  CasesPanel();
 
   void setRows(std::vector<CaseRow> rows);
   /// Shows the open case as chosen without requesting it.

@@ -8,14 +8,12 @@
 #include "ui/models/text.h"
 #include "ui/state/view_state.h"
 #include "ui/widgets/column_fitter.h"
-#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
 
 enum Column { kFrame, kPlace, kSigma_mm, kSigma_mrad, kSource, kComment, kColumns };
 constexpr int kRow = Qt::UserRole;
-constexpr int kIndentation = 12;  // frames hang on one another five deep
 
 QString placeText(const sessions::FrameRow& row) {
   if (!row.transform) return {};
@@ -24,10 +22,11 @@ QString placeText(const sessions::FrameRow& row) {
       .arg(numberText(place_mm.x(), 1), numberText(place_mm.y(), 1), numberText(place_mm.z(), 1));
 }
 
-QString sigmaText(const sessions::FrameRow& row, double factor, int first) {
+/// In mm (first = 3) or mrad (first = 0).
+QString sigmaText(const sessions::FrameRow& row, int first) {
   if (!row.transform) return {};
   if (!row.sigma) return FramesPanel::tr("exact");
-  return numberText(factor * row.sigma->segment<3>(first).maxCoeff(), 2);
+  return numberText(1e3 * row.sigma->segment<3>(first).maxCoeff(), 2);
 }
 
 QTreeWidgetItem* itemOf(const sessions::FrameRow& row, int index) {
@@ -35,8 +34,8 @@ QTreeWidgetItem* itemOf(const sessions::FrameRow& row, int index) {
   item->setData(kFrame, kRow, index);
   item->setText(kFrame, fromText(sessions::frameText(row.frame)));
   item->setText(kPlace, placeText(row));
-  item->setText(kSigma_mm, sigmaText(row, 1e3, 3));
-  item->setText(kSigma_mrad, sigmaText(row, 1e3, 0));
+  item->setText(kSigma_mm, sigmaText(row, 3));
+  item->setText(kSigma_mrad, sigmaText(row, 0));
   if (!row.transform) return item;
   const auto source = static_cast<std::size_t>(row.transform->origin);
   item->setText(kSource, fromText(sessions::kTransformSourceNames[source]));
@@ -48,43 +47,20 @@ QTreeWidgetItem* itemOf(const sessions::FrameRow& row, int index) {
 
 }  // namespace
 
-FramesPanel::FramesPanel(ViewState& state, QWidget* parent)
-    : QWidget(parent),
-      state_(state),
-      tree_(named(new QTreeWidget, "frames")),
-      add_(named(new QPushButton(tr("Add...")), "addFrames",
-                 tr("Add the transforms of a file; one between the same two frames is replaced"))),
-      remove_(named(new QPushButton(tr("Remove")), "removeFrame",
-                    tr("Remove the chosen transform from the case"))) {
-  tree_->setColumnCount(kColumns);
-  tree_->setHeaderLabels({tr("Frame"), tr("Place, mm"), tr("Sigma, mm"), tr("Sigma, mrad"),
-                          tr("Source"), tr("Comment")});
-  tree_->headerItem()->setToolTip(kPlace, tr("Of the origin, in the frame above"));
-  tree_->headerItem()->setToolTip(kSigma_mm, tr("One sigma of the worst axis"));
-  tree_->headerItem()->setToolTip(kSigma_mrad, tr("One sigma of the worst axis"));
-  tree_->setFrameShape(QFrame::NoFrame);
-  tree_->setIndentation(kIndentation);
-  tree_->header()->setStretchLastSection(false);
-  new ColumnFitter(*tree_, {kComment, kSource, kSigma_mrad, kSigma_mm});
-  tree_->setAccessibleName(tr("Frames"));
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(add_);
-  buttons->addWidget(remove_);
-  buttons->addStretch(1);
-  auto* column = new QVBoxLayout(this);
-  column->addWidget(tree_, 1);
-  column->addLayout(buttons);
-  connect(add_, &QPushButton::clicked, this, &FramesPanel::addRequested);
-  connect(remove_, &QPushButton::clicked, this, [this] {
+FramesPanel::FramesPanel(ViewState& state) : state_(state) {
+  ui_.setupUi(this);
+  new ColumnFitter(*ui_.frames, {kComment, kSource, kSigma_mrad, kSigma_mm});
+  connect(ui_.addFrames, &QPushButton::clicked, this, &FramesPanel::addRequested);
+  connect(ui_.removeFrame, &QPushButton::clicked, this, [this] {
     if (const auto chosen = removable()) Q_EMIT removeRequested(*chosen);
   });
-  connect(tree_, &QTreeWidget::currentItemChanged, this, &FramesPanel::showChosen);
+  connect(ui_.frames, &QTreeWidget::currentItemChanged, this, &FramesPanel::showChosen);
   state_.onChange(ViewChange::kCase, this, &FramesPanel::showCase);
   showCase();
 }
 
 void FramesPanel::showCase() {
-  tree_->clear();
+  ui_.frames->clear();
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   rows_ = loaded_case ? sessions::frameRows(sessions::framesOf(loaded_case->source))
                       : std::vector<sessions::FrameRow>();
@@ -92,18 +68,18 @@ void FramesPanel::showCase() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     items.push_back(itemOf(rows_[i], static_cast<int>(i)));
     if (rows_[i].parent < 0)
-      tree_->addTopLevelItem(items.back());
+      ui_.frames->addTopLevelItem(items.back());
     else
       items[static_cast<std::size_t>(rows_[i].parent)]->addChild(items.back());
   }
-  tree_->expandAll();
-  for (int i = 0; i < kColumns; ++i) tree_->resizeColumnToContents(i);
-  add_->setEnabled(loaded_case != nullptr);
+  ui_.frames->expandAll();
+  for (int i = 0; i < kColumns; ++i) ui_.frames->resizeColumnToContents(i);
+  ui_.addFrames->setEnabled(loaded_case != nullptr);
   showChosen();
 }
 
 std::optional<sessions::FrameTransform> FramesPanel::removable() const {
-  const QTreeWidgetItem* item = tree_->currentItem();
+  const QTreeWidgetItem* item = ui_.frames->currentItem();
   if (!item || !state_.currentCase()) return std::nullopt;
   const auto& transform =
       rows_[static_cast<std::size_t>(item->data(kFrame, kRow).toInt())].transform;
@@ -112,6 +88,6 @@ std::optional<sessions::FrameTransform> FramesPanel::removable() const {
   return transform;
 }
 
-void FramesPanel::showChosen() { remove_->setEnabled(removable().has_value()); }
+void FramesPanel::showChosen() { ui_.removeFrame->setEnabled(removable().has_value()); }
 
 }  // namespace boresight::ui

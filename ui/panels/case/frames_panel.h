@@ -6,10 +6,9 @@
 
 #include <QWidget>
 
-#include "sessions/io/cameras/frame_tree.h"
+#include "ui_frames_panel.h"
 
-class QPushButton;
-class QTreeWidget;
+#include "sessions/io/cameras/frame_tree.h"
 
 namespace boresight::ui {
 
@@ -21,7 +20,7 @@ class FramesPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit FramesPanel(ViewState& state, QWidget* parent = nullptr);
+  explicit FramesPanel(ViewState& state);
 
  Q_SIGNALS:
   void addRequested();
@@ -35,9 +34,7 @@ class FramesPanel : public QWidget {
 
   ViewState& state_;
   std::vector<sessions::FrameRow> rows_;
-  QTreeWidget* tree_;
-  QPushButton* add_;
-  QPushButton* remove_;
+  Ui::FramesPanel ui_;
 };
 
 }  // namespace boresight::ui

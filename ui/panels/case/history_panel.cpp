@@ -4,18 +4,14 @@
 #include <QtWidgets>
 
 #include "ui/state/document.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 
-HistoryPanel::HistoryPanel(Document& document, QWidget* parent)
-    : QWidget(parent), document_(document), list_(new QListWidget) {
-  auto* column = new QVBoxLayout(this);
-  column->addWidget(list_);
-  list_->setObjectName(QStringLiteral("history"));
-  list_->setFrameShape(QFrame::NoFrame);
-  connect(&document_, &Document::opened, this, &HistoryPanel::fill);
-  connect(&document_, &Document::changed, this, &HistoryPanel::fill);
-  connect(list_, &QListWidget::currentRowChanged, this, [this](int row) {
+HistoryPanel::HistoryPanel(Document& document) : document_(document) {
+  ui_.setupUi(this);
+  connectEach(document_, this, &HistoryPanel::fill, &Document::opened, &Document::changed);
+  connect(ui_.history, &QListWidget::currentRowChanged, this, [this](int row) {
     if (!filling_ && row >= 0) document_.goToEdit(static_cast<std::size_t>(row));
   });
   fill();
@@ -23,17 +19,17 @@ HistoryPanel::HistoryPanel(Document& document, QWidget* parent)
 
 void HistoryPanel::fill() {
   filling_ = true;
-  list_->clear();
+  ui_.history->clear();
   const QStringList texts = document_.editTexts();
   const auto done = static_cast<int>(document_.editsDone());
-  list_->addItem(document_.isOpen() ? tr("Session as opened") : tr("No session is open"));
+  ui_.history->addItem(document_.isOpen() ? tr("Session as opened") : tr("No session is open"));
   for (int i = 0; i < texts.size(); ++i) {
-    list_->addItem(texts[i]);
+    ui_.history->addItem(texts[i]);
     if (i >= done)
-      list_->item(i + 1)->setForeground(palette().color(QPalette::Disabled, QPalette::Text));
+      ui_.history->item(i + 1)->setForeground(palette().color(QPalette::Disabled, QPalette::Text));
   }
-  list_->setCurrentRow(document_.isOpen() ? done : -1);
-  if (list_->currentItem()) list_->scrollToItem(list_->currentItem());
+  ui_.history->setCurrentRow(document_.isOpen() ? done : -1);
+  if (ui_.history->currentItem()) ui_.history->scrollToItem(ui_.history->currentItem());
   filling_ = false;
 }
 

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-class QListWidget;
+#include "ui_history_panel.h"
 
 namespace boresight::ui {
 
@@ -15,14 +15,14 @@ class HistoryPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit HistoryPanel(Document& document, QWidget* parent = nullptr);
+  explicit HistoryPanel(Document& document);
 
  private:
   void fill();
 
   Document& document_;
-  QListWidget* list_;
   bool filling_ = false;
+  Ui::HistoryPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -5,23 +5,14 @@
 
 #include <QtWidgets>
 
-#include "sessions/session/input_sigmas.h"
-#include "ui/models/text.h"
+#include "sessions/session/stated_inputs.h"
+#include "ui/models/rows_model.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr double kMost_mm = 100'000.0;
-constexpr double kLeastRequirement = 1e-6;
-
-void setUpBox(QDoubleSpinBox* box, double least, double most, double value, const QString& unit) {
-  box->setDecimals(3);
-  box->setRange(least, most);
-  box->setSuffix(QLatin1Char(' ') + unit);
-  box->setValue(value);
-}
 
 }  // namespace
 
@@ -37,8 +28,8 @@ InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* 
   ui_.cameraStated->setChecked(sigmas.calibration_stated);
   by_covariance_ = sigmas.calibration_derived;
   former_calibration_ = one.calibration_sigma;
-  for (QWidget* field : {static_cast<QWidget*>(ui_.cameraStated), static_cast<QWidget*>(ui_.focal),
-                         static_cast<QWidget*>(ui_.principalPoint)}) {
+  for (QWidget* field :
+       std::initializer_list<QWidget*>{ui_.cameraStated, ui_.focal, ui_.principalPoint}) {
     if (!by_covariance_) break;
     field->setEnabled(false);
     field->setToolTip(tr("The camera's covariance counts in place of these"));
@@ -48,8 +39,6 @@ InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* 
        kPercent * sessions::kMaxFocalSigma);
   show(ui_.principalPoint, sigmas.calibration.principal_point_px,
        sessions::kMaxPrincipalPointSigma_px);
-  connect(ui_.buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
 }
 
 std::optional<double> InputSigmasDialog::meshScaleSigma() const {
@@ -70,16 +59,14 @@ JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* pare
   ui_.setupUi(this);
   const Eigen::Vector3d place_mm = 1e3 * former_end_effector_.translation_m;
   ui_.endEffectorStated->setChecked(one.camera_from_end_effector.has_value());
-  setUpBox(ui_.endEffectorX, -kMost_mm, kMost_mm, place_mm.x(), tr("mm"));
-  setUpBox(ui_.endEffectorY, -kMost_mm, kMost_mm, place_mm.y(), tr("mm"));
-  setUpBox(ui_.endEffectorZ, -kMost_mm, kMost_mm, place_mm.z(), tr("mm"));
+  ui_.endEffectorX->setValue(place_mm.x());
+  ui_.endEffectorY->setValue(place_mm.y());
+  ui_.endEffectorZ->setValue(place_mm.z());
   const sessions::Requirement& former = former_requirement_;
   ui_.requirementStated->setChecked(former.normal_mm || former.lateral_mm || former.rotation_deg);
-  setUpBox(ui_.normal, kLeastRequirement, kMost_mm, former.normal_mm.value_or(0.4), tr("mm"));
-  setUpBox(ui_.lateral, kLeastRequirement, kMost_mm, former.lateral_mm.value_or(0.4), tr("mm"));
-  setUpBox(ui_.rotation, kLeastRequirement, 180.0, former.rotation_deg.value_or(0.25), tr("deg"));
-  connect(ui_.buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  ui_.normal->setValue(former.normal_mm.value_or(0.4));
+  ui_.lateral->setValue(former.lateral_mm.value_or(0.4));
+  ui_.rotation->setValue(former.rotation_deg.value_or(0.25));
 }
 
 std::optional<Pose> JudgementDialog::cameraFromEndEffector() const {
@@ -106,33 +93,16 @@ std::optional<sessions::Requirement> JudgementDialog::requirement() const {
   return stated == sessions::Requirement() ? std::nullopt : std::optional(stated);
 }
 
-InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
+InputSheetPanel::InputSheetPanel() {
   ui_.setupUi(this);
   styleTable(*ui_.sheet);
   ui_.sheet->setWordWrap(true);
   ui_.sheet->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   ui_.sheet->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  ui_.sheet->horizontalHeader()->setStretchLastSection(true);
-  auto* copy = new QAction(tr("Copy"), ui_.sheet);
-  copy->setShortcut(QKeySequence::Copy);
-  copy->setShortcutContext(Qt::WidgetShortcut);
-  ui_.sheet->addAction(copy);
-  ui_.sheet->setContextMenuPolicy(Qt::ActionsContextMenu);
-  connect(copy, &QAction::triggered, this, &InputSheetPanel::copyChosen);
+  connect(ui_.copy, &QAction::triggered, this, &InputSheetPanel::copyChosen);
   connect(ui_.inputSigmas, &QPushButton::clicked, this, &InputSheetPanel::sigmasRequested);
   connect(ui_.judgement, &QPushButton::clicked, this, &InputSheetPanel::judgementRequested);
   setSheet(std::nullopt);
-}
-
-void InputSheetPanel::showFlags(const std::vector<sessions::RedFlag>& flags) {
-  QStringList sentences;
-  for (const sessions::RedFlag& flag : flags)
-    sentences.append(QStringLiteral("⚠ ") + fromText(flag.text));
-  ui_.flags->setText(flags.empty() ? tr("✓ No warnings about the inputs.")
-                                   : sentences.join(QLatin1Char('\n')));
-  QFont font = this->font();
-  font.setBold(!flags.empty());
-  ui_.flags->setFont(font);
 }
 
 void InputSheetPanel::setSheet(const std::optional<sessions::InputSheet>& sheet) {
@@ -143,7 +113,12 @@ void InputSheetPanel::setSheet(const std::optional<sessions::InputSheet>& sheet)
     ui_.sheet->setRowCount(0);
     return;
   }
-  showFlags(sheet->flags);
+  QStringList sentences;
+  for (const sessions::RedFlag& flag : sheet->flags)
+    sentences.append(QStringLiteral("⚠ ") + fromText(flag.text));
+  ui_.flags->setText(sentences.isEmpty() ? tr("✓ No warnings about the inputs.")
+                                         : sentences.join(QLatin1Char('\n')));
+  ui_.flags->setFont(boldFont(font(), !sentences.isEmpty()));
   ui_.sheet->setRowCount(static_cast<int>(sheet->lines.size()));
   for (int row = 0; row < ui_.sheet->rowCount(); ++row) {
     const sessions::SheetLine& line = sheet->lines[static_cast<std::size_t>(row)];
@@ -153,14 +128,6 @@ void InputSheetPanel::setSheet(const std::optional<sessions::InputSheet>& sheet)
     ui_.sheet->setItem(row, 1, value);
   }
   ui_.sheet->resizeColumnToContents(0);
-}
-
-QString InputSheetPanel::text() const {
-  QString text = ui_.flags->text() + QLatin1Char('\n');
-  for (int row = 0; row < ui_.sheet->rowCount(); ++row)
-    text += ui_.sheet->item(row, 0)->text() + QStringLiteral(": ") +
-            ui_.sheet->item(row, 1)->text() + QLatin1Char('\n');
-  return text;
 }
 
 void InputSheetPanel::copyChosen() const {

@@ -56,12 +56,10 @@ class InputSheetPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit InputSheetPanel(QWidget* parent = nullptr);
+  InputSheetPanel();
 
   /// Empty: no case is open.
   void setSheet(const std::optional<sessions::InputSheet>& sheet);
-  /// The whole sheet as lines of text.
-  QString text() const;
 
  Q_SIGNALS:
   /// The operator asks to state the uncertainty of mesh and camera.
@@ -70,7 +68,6 @@ class InputSheetPanel : public QWidget {
   void judgementRequested();
 
  private:
-  void showFlags(const std::vector<sessions::RedFlag>& flags);
   void copyChosen() const;
 
   Ui::InputSheetPanel ui_;

@@ -20,22 +20,11 @@ QTableWidgetItem* textItem(const QString& text, const QString& tip = {}) {
 
 }  // namespace
 
-PartsPanel::PartsPanel(Document& document, ViewState& state, QWidget* parent)
-    : QWidget(parent),
-      document_(document),
-      state_(state),
-      table_(named(new QTableWidget(0, kColumns), "parts")) {
-  styleTable(*table_);
-  table_->setHorizontalHeaderLabels({tr("On"), tr("Part"), tr("Role"), tr("Fixed to"), tr("Mesh")});
-  table_->horizontalHeaderItem(kPresent)->setToolTip(
-      tr("Whether the part is there: which sleeves are filled, a lid closed"));
-  table_->horizontalHeaderItem(kRole)->setToolTip(
-      tr("matched: its edges are searched; occludes: it hides parts behind it; ignored: not used"));
-  new ColumnFitter(*table_, {kMesh, kFrame});
-  table_->setAccessibleName(tr("Parts of the station"));
-  auto* column = new QVBoxLayout(this);
-  column->addWidget(table_);
-  connect(table_, &QTableWidget::itemChanged, this, [this](const QTableWidgetItem* item) {
+PartsPanel::PartsPanel(Document& document, ViewState& state) : document_(document), state_(state) {
+  ui_.setupUi(this);
+  styleTable(*ui_.parts);
+  new ColumnFitter(*ui_.parts, {kMesh, kFrame});
+  connect(ui_.parts, &QTableWidget::itemChanged, this, [this](const QTableWidgetItem* item) {
     if (filling_ || item->column() != kPresent) return;
     const sessions::SessionCase* shown = shownCase(document_, state_);
     const auto row = static_cast<std::size_t>(item->row());
@@ -44,20 +33,19 @@ PartsPanel::PartsPanel(Document& document, ViewState& state, QWidget* parent)
     changed.present = item->checkState() == Qt::Checked;
     change(item->row(), changed);
   });
-  connect(&document_, &Document::opened, this, &PartsPanel::showCase);
-  connect(&document_, &Document::changed, this, &PartsPanel::showCase);
+  connectEach(document_, this, &PartsPanel::showCase, &Document::opened, &Document::changed);
   state_.onChange(ViewChange::kCase, this, &PartsPanel::showCase);
   showCase();
 }
 
 void PartsPanel::showCase() {
   filling_ = true;
-  table_->setRowCount(0);
+  ui_.parts->setRowCount(0);
   if (const sessions::SessionCase* shown = shownCase(document_, state_)) {
-    table_->setRowCount(static_cast<int>(shown->parts.size()));
-    for (int row = 0; row < table_->rowCount(); ++row)
+    ui_.parts->setRowCount(static_cast<int>(shown->parts.size()));
+    for (int row = 0; row < ui_.parts->rowCount(); ++row)
       addPart(row, shown->parts[static_cast<std::size_t>(row)].source, document_.isEditable());
-    table_->resizeColumnsToContents();
+    ui_.parts->resizeColumnsToContents();
   }
   filling_ = false;
 }
@@ -67,9 +55,9 @@ void PartsPanel::addPart(int row, const sessions::PartSource& part, bool editabl
   present->setFlags(Qt::ItemIsSelectable | Qt::ItemIsUserCheckable |
                     (editable ? Qt::ItemIsEnabled : Qt::NoItemFlags));
   present->setCheckState(part.state.present ? Qt::Checked : Qt::Unchecked);
-  table_->setItem(row, kPresent, present);
-  table_->setItem(row, kName,
-                  textItem(fromText(sessions::partName(part)), fromText(sessions::partText(part))));
+  ui_.parts->setItem(row, kPresent, present);
+  ui_.parts->setItem(
+      row, kName, textItem(fromText(sessions::partName(part)), fromText(sessions::partText(part))));
   auto* role = new QComboBox;
   for (const char* name : sessions::kPartRoleNames) role->addItem(QLatin1String(name));
   role->setCurrentIndex(static_cast<int>(part.state.role));
@@ -79,10 +67,10 @@ void PartsPanel::addPart(int row, const sessions::PartSource& part, bool editabl
             state.role = static_cast<sessions::PartRole>(index);
             change(row, state);
           });
-  table_->setCellWidget(row, kRole, role);
-  table_->setItem(row, kFrame, textItem(fromText(sessions::frameText(part.frame))));
-  table_->setItem(row, kMesh,
-                  textItem(fromText(part.mesh.filename().string()), fromText(part.mesh.string())));
+  ui_.parts->setCellWidget(row, kRole, role);
+  ui_.parts->setItem(row, kFrame, textItem(fromText(sessions::frameText(part.frame))));
+  ui_.parts->setItem(
+      row, kMesh, textItem(fromText(part.mesh.filename().string()), fromText(part.mesh.string())));
 }
 
 /// After the signal: the table is filled again by the edit.

@@ -3,9 +3,9 @@
 
 #include <QWidget>
 
-#include "sessions/io/meshes/part_source.h"
+#include "ui_parts_panel.h"
 
-class QTableWidget;
+#include "sessions/io/meshes/part_source.h"
 
 namespace boresight::ui {
 
@@ -18,14 +18,14 @@ class PartsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  PartsPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
+  PartsPanel(Document& document, ViewState& state);
 
  Q_SIGNALS:
   /// A state that is not allowed; one sentence.
   void failed(const QString& message);
 
  private:
-  enum Column { kPresent, kName, kRole, kFrame, kMesh, kColumns };
+  enum Column { kPresent, kName, kRole, kFrame, kMesh };
 
   void showCase();
   void addPart(int row, const sessions::PartSource& part, bool editable);
@@ -33,8 +33,8 @@ class PartsPanel : public QWidget {
 
   Document& document_;
   ViewState& state_;
-  QTableWidget* table_;
   bool filling_ = false;
+  Ui::PartsPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -28,8 +28,6 @@ constexpr std::array<const char*, kTrendFigures> kFigureTitles = {
     QT_TR_NOOP("x, mm"),    QT_TR_NOOP("y, mm"),    QT_TR_NOOP("z, mm"),  QT_TR_NOOP("rx, mrad"),
     QT_TR_NOOP("ry, mrad"), QT_TR_NOOP("rz, mrad"), QT_TR_NOOP("RMS, px")};
 
-QString trendsTask() { return QStringLiteral("trends"); }
-
 std::vector<TableColumn<TrendPoint>> trendColumns() {
   constexpr auto tr = [](const char* text) { return TrendsModel::tr(text); };
   std::vector<TableColumn<TrendPoint>> columns = {
@@ -50,7 +48,7 @@ std::vector<TableColumn<TrendPoint>> trendColumns() {
 
 }  // namespace
 
-TrendsModel::TrendsModel(QObject* parent) : RowsModel(trendColumns(), parent) {}
+TrendsModel::TrendsModel() : RowsModel(trendColumns()) {}
 
 QVariant TrendsModel::look(const TrendPoint& row, int column, int role) const {
   const int figure = column - kFirstFigure;
@@ -58,28 +56,24 @@ QVariant TrendsModel::look(const TrendPoint& row, int column, int role) const {
                        row.outlier[static_cast<std::size_t>(figure)];
   if (role == Qt::DisplayRole && outlier)
     return tr("%1 !").arg(numberText(row.figures[static_cast<std::size_t>(figure)], 3));
-  if (role == Qt::FontRole && outlier) {
-    QFont bold;
-    bold.setBold(true);
-    return bold;
-  }
+  if (role == Qt::FontRole && outlier) return boldFont();
   if (role == Qt::ToolTipRole && column == kCase)
     return QStringLiteral("%1\n%2 %3")
         .arg(fromText(row.session.string()), fromText(row.station), fromText(row.time));
   return {};
 }
 
-TrendsPanel::TrendsPanel(Document& document, QWidget* parent)
-    : QWidget(parent), document_(document) {
+TrendsPanel::TrendsPanel(Document& document) : document_(document) {
   ui_.setupUi(this);
   setUpTable(*ui_.trendTable, model_);
   for (std::size_t figure = 0; figure < kResidual; ++figure)
     ui_.trendFigure->addItem(TrendsModel::tr(kFigureTitles[figure]));
-  connect(ui_.trendFigure, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-          &TrendsPanel::showFigure);
+  connect(ui_.trendFigure, kIndexChanged, this, &TrendsPanel::showFigure);
   connect(ui_.addSessions, &QPushButton::clicked, this, &TrendsPanel::askForEarlier);
-  connect(ui_.trendTable, &QTableView::activated, this,
-          [this](const QModelIndex& index) { openRow(index.row()); });
+  connect(ui_.trendTable, &QTableView::activated, this, [this](const QModelIndex& index) {
+    const TrendPoint& point = model_.at(index.row());
+    if (point.session == document_.file()) Q_EMIT openRequested(fromText(point.case_id));
+  });
   connect(ui_.trendTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             if (plot_) plot_->setMarked(current.row());
@@ -94,25 +88,19 @@ void TrendsPanel::setEarlier(std::vector<std::filesystem::path> files) {
   follow();
 }
 
-TrendsPanel::Source TrendsPanel::source() const {
-  Source source;
-  const sessions::Session& session = document_.session();
-  for (const auto& each : session.cases)
-    if (const sessions::RunRecord* run = session.lastRunOf(each->id))
-      source.first.push_back(each->id + ' ' + run->digest);
-  source.second = earlier_;
-  return source;
-}
-
 /// Runs are read while they are looked at, once.
 void TrendsPanel::follow() {
   if (!isVisible()) return;
-  Source wanted = source();
+  Source wanted{{}, earlier_};
+  const sessions::Session& current = document_.session();
+  for (const auto& each : current.cases)
+    if (const sessions::RunRecord* run = current.lastRunOf(each->id))
+      wanted.first.push_back(each->id + ' ' + run->digest);
   if (wanted == read_) return;
   read_ = std::move(wanted);
   ui_.trendNote->setText(tr("Reading %n run(s) ...", "", static_cast<int>(read_.first.size())));
   reader_.start(
-      trendsTask(),
+      QStringLiteral("trends"),
       [session = document_.session(), file = document_.file(),
        earlier = earlier_](const std::stop_token& stop) {
         Trend trend;
@@ -178,11 +166,6 @@ void TrendsPanel::askForEarlier() {
   for (const QString& file : files) chosen.emplace_back(file.toStdString());
   std::ranges::sort(chosen);
   if (!chosen.empty()) setEarlier(std::move(chosen));
-}
-
-void TrendsPanel::openRow(int row) {
-  const TrendPoint& point = model_.at(row);
-  if (point.session == document_.file()) Q_EMIT openRequested(fromText(point.case_id));
 }
 
 void TrendsPanel::showEvent(QShowEvent* event) {

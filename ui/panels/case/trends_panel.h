@@ -26,7 +26,7 @@ class TrendsModel : public RowsModel<sessions::TrendPoint> {
  public:
   enum Column { kCase, kFirstFigure, kReview = kFirstFigure + sessions::kTrendFigures };
 
-  explicit TrendsModel(QObject* parent = nullptr);
+  TrendsModel();
 
  protected:
   QVariant look(const sessions::TrendPoint& row, int column, int role) const override;
@@ -38,7 +38,7 @@ class TrendsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit TrendsPanel(Document& document, QWidget* parent = nullptr);
+  explicit TrendsPanel(Document& document);
 
   const TrendsModel& model() const { return model_; }
   /// Sessions that come before the shown one, in the order of time.
@@ -59,12 +59,10 @@ class TrendsPanel : public QWidget {
     QStringList remarks;
   };
 
-  Source source() const;
   void follow();
   void take(const Trend& trend);
   void showFigure();
   void askForEarlier();
-  void openRow(int row);
 
   Document& document_;
   TrendsModel model_;

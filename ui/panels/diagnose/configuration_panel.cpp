@@ -19,24 +19,19 @@ LocalizerOptions optionsOf(const QString& profile) {
 
 }  // namespace
 
-ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
-    : QWidget(parent), view_(view) {
+ConfigurationPanel::ConfigurationPanel(ViewState& view) : view_(view) {
   ui_.setupUi(this);
   ui_.profile->addItems(profiles());
   ui_.stale->setAction(tr("Run again with these"), {});
-  ui_.help->setMinimumHeight(2 * ui_.help->fontMetrics().lineSpacing());
+  ui_.options->describeIn(*ui_.help, tr("Select an option to read its description."));
   const auto filter = [this] {
     ui_.options->setFilter(ui_.words->text(), ui_.changedOnly->isChecked());
   };
   connect(ui_.words, &QLineEdit::textChanged, this, filter);
   connect(ui_.changedOnly, &QCheckBox::toggled, this, filter);
-  connect(ui_.profile, QOverload<int>::of(&QComboBox::activated), this,
-          [this] { setProfile(ui_.profile->currentText()); });
+  connect(ui_.profile, &QComboBox::textActivated, this, &ConfigurationPanel::setProfile);
   connect(ui_.resetAll, &QPushButton::clicked, this, [this] { setProfile(profile_); });
   connect(&ui_.options->options(), &OptionsModel::edited, this, &ConfigurationPanel::change);
-  connect(ui_.options, &OptionsTable::helpChanged, this, [this](const QString& help) {
-    ui_.help->setText(help.isEmpty() ? tr("Select an option to read its description.") : help);
-  });
   connect(ui_.stale, &Banner::actionRequested, this, &ConfigurationPanel::runAgainRequested);
   view_.onChange(ViewChange::kSnapshot, this, &ConfigurationPanel::showStale);
   setOptions(profiles().front(), defaultProfile());
@@ -65,12 +60,7 @@ void ConfigurationPanel::setProfile(const QString& profile) {
 
 void ConfigurationPanel::change(const std::string& name, const std::string& value) {
   LocalizerOptions changed = options_;
-  try {
-    sessions::applyOptionText(changed, name, value);
-  } catch (const sessions::OptionError& error) {
-    ui_.help->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
-    return;
-  }
+  if (!ui_.options->apply(changed, name, value)) return;
   setOptions(profile_, changed);
   Q_EMIT optionsEdited(profile_, options_);
 }
@@ -82,12 +72,10 @@ QStringList ConfigurationPanel::differences() const {
   if (!(current.templates.feature_size_m > 0.0))
     current.templates.feature_size_m = case_feature_size_m_;
   QStringList names;
-  for (const auto& option : sessions::listOptions(run->lastOptions())) {
-    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), current)) {
-      if (name != option.name) continue;
-      names.append(tr("%1 (was %2)").arg(fromText(name), fromText(valueText(option, value))));
-    }
-  }
+  for (const auto& option : sessions::listOptions(run->lastOptions()))
+    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), current))
+      if (name == option.name)
+        names.append(tr("%1 (was %2)").arg(fromText(name), fromText(valueText(option, value))));
   return names;
 }
 

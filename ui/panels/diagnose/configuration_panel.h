@@ -18,7 +18,7 @@ class ConfigurationPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ConfigurationPanel(ViewState& view, QWidget* parent = nullptr);
+  explicit ConfigurationPanel(ViewState& view);
 
   /// From the document; emits nothing. An unknown profile is replaced by the default one.
   void setOptions(const QString& profile, const LocalizerOptions& options);

@@ -3,13 +3,12 @@
 
 #include <cmath>
 
-#include <QFont>
 #include <QtWidgets>
 
 #include "core/base/math.h"
 #include "core/localizer/acceptance.h"
 #include "sessions/text/units.h"
-#include "sessions/trace/acceptance.h"
+#include "sessions/trace/run_text.h"
 #include "ui/models/text.h"
 #include "ui/widgets/column_fitter.h"
 #include "ui/widgets/widgets.h"
@@ -87,7 +86,7 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
 
 }  // namespace
 
-AlternativesModel::AlternativesModel(QObject* parent) : RowsModel(alternativeColumns(), parent) {}
+AlternativesModel::AlternativesModel() : RowsModel(alternativeColumns()) {}
 
 int AlternativesModel::firstRowOf(int iteration) const {
   return firstRow([iteration](const Alternative& alternative) {
@@ -96,39 +95,32 @@ int AlternativesModel::firstRowOf(int iteration) const {
 }
 
 QVariant AlternativesModel::look(const Alternative& row, int /*column*/, int role) const {
-  if (role != Qt::FontRole || !row.chosen) return {};
-  QFont bold;
-  bold.setBold(true);
-  return bold;
+  return role == Qt::FontRole && row.chosen ? boldFont() : QVariant();
 }
 
-using sessions::AlternativeKind;
-
-HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
-  auto* column = new QVBoxLayout(this);
-  table_ = named(new QTableView(this), "hypotheses");
-  table_->setAccessibleName(tr("Competing poses, compared poses and rolled hypotheses"));
-  setUpTable(*table_, model_);
+HypothesesPanel::HypothesesPanel(ViewState& view) : view_(view) {
+  ui_.setupUi(this);
+  setUpTable(*ui_.hypotheses, model_);
   using Model = AlternativesModel;
-  new ColumnFitter(*table_, {Model::kMatches, Model::kSimilarity, Model::kInliers,
-                             Model::kIteration, Model::kProbability, Model::kScore,
-                             Model::kApart_deg, Model::kMargin_nats, Model::kApart_mm});
-  column->addWidget(table_);
-  auto* hint = new EmptyHint(*table_);
-  hint->setText(
-      tr("Other poses of the run: competing poses, compared poses, rolled hypotheses. "
-         "The selected row is drawn on the image."));
-  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  new ColumnFitter(*ui_.hypotheses, {Model::kMatches, Model::kSimilarity, Model::kInliers,
+                                     Model::kIteration, Model::kProbability, Model::kScore,
+                                     Model::kApart_deg, Model::kMargin_nats, Model::kApart_mm});
+  (new EmptyHint(*ui_.hypotheses))
+      ->setText(tr("Other poses of the run: competing poses, compared poses, rolled hypotheses. "
+                   "The selected row is drawn on the image."));
+  connect(ui_.hypotheses->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_) choose(current.isValid() ? current.row() : -1);
           });
   // A click on the row that is drawn already brings it back where the cursor has gone elsewhere.
-  connect(table_, &QTableView::clicked, this, [this](const QModelIndex& row) {
+  connect(ui_.hypotheses, &QTableView::clicked, this, [this](const QModelIndex& row) {
     if (!view_.alternative()) choose(row.row());
   });
   view_.onChange(ViewChange::kSnapshot, this, &HypothesesPanel::showSnapshot);
   view_.onChange(ViewChange::kCursor, this, &HypothesesPanel::showCursor);
-  view_.onChange(ViewChange::kAlternative, this, &HypothesesPanel::showAlternative);
+  view_.onChange(ViewChange::kAlternative, this, [this] {
+    if (!view_.alternative()) select(-1);
+  });
   showSnapshot();
 }
 
@@ -151,7 +143,7 @@ void HypothesesPanel::showSnapshot() {
   model_.setRows(view_.snapshot() ? sessions::alternativesOf(*view_.snapshot())
                                   : std::vector<sessions::Alternative>(),
                  false);
-  table_->resizeColumnsToContents();
+  ui_.hypotheses->resizeColumnsToContents();
 }
 
 void HypothesesPanel::showCursor() {
@@ -159,22 +151,13 @@ void HypothesesPanel::showCursor() {
   const int iteration = view_.cursor().iteration;
   view_.setAlternative(std::nullopt);
   const int first = model_.firstRowOf(iteration);
-  if (first >= 0) table_->scrollTo(model_.index(first, 0), QAbstractItemView::PositionAtTop);
-}
-
-void HypothesesPanel::showAlternative() {
-  if (!view_.alternative()) select(-1);
+  if (first >= 0)
+    ui_.hypotheses->scrollTo(model_.index(first, 0), QAbstractItemView::PositionAtTop);
 }
 
 void HypothesesPanel::select(int row) {
-  const QScopedValueRollback<bool> follows(showing_, true);
-  if (row < 0) {
-    table_->setCurrentIndex({});
-    table_->clearSelection();
-  } else {
-    table_->setCurrentIndex(model_.index(row, 0));
-    table_->scrollTo(model_.index(row, 0));
-  }
+  followRow(*ui_.hypotheses, model_.index(row, 0), showing_);
+  if (row < 0) ui_.hypotheses->clearSelection();
 }
 
 }  // namespace boresight::ui

@@ -3,11 +3,11 @@
 
 #include <QWidget>
 
+#include "ui_hypotheses_panel.h"
+
 #include "sessions/trace/alternatives.h"
 #include "ui/models/rows_model.h"
 #include "ui/state/view_state.h"
-
-class QTableView;
 
 namespace boresight::ui {
 
@@ -31,7 +31,7 @@ class AlternativesModel : public RowsModel<sessions::Alternative> {
     kApart_deg,
   };
 
-  explicit AlternativesModel(QObject* parent = nullptr);
+  AlternativesModel();
 
   /// The first row of an iteration (an index into the run's), or -1.
   int firstRowOf(int iteration) const;
@@ -47,7 +47,7 @@ class HypothesesPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit HypothesesPanel(ViewState& view, QWidget* parent = nullptr);
+  explicit HypothesesPanel(ViewState& view);
 
   const AlternativesModel& model() const { return model_; }
   /// -1: none.
@@ -56,13 +56,12 @@ class HypothesesPanel : public QWidget {
  private:
   void showSnapshot();
   void showCursor();
-  void showAlternative();
   void select(int row);
 
   ViewState& view_;
   AlternativesModel model_;
-  QTableView* table_ = nullptr;
   bool showing_ = false;  ///< the table is being updated by the view state, not the operator
+  Ui::HypothesesPanel ui_;
 };
 
 }  // namespace boresight::ui

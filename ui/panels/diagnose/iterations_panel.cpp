@@ -9,7 +9,7 @@
 
 #include "core/base/math.h"
 #include "sessions/text/units.h"
-#include "sessions/trace/run_headline.h"
+#include "sessions/trace/run_text.h"
 #include "ui/models/text.h"
 #include "ui/plots/plots.h"
 #include "ui/widgets/column_fitter.h"
@@ -17,15 +17,17 @@
 
 namespace boresight::ui {
 
-std::vector<Stage> stagesOf(const sessions::IterationTrace& iteration) {
-  const bool refines = iteration.kind == IterationKind::kRefine;
-  const std::vector<Stage> all =
-      refines ? std::vector<Stage>{Stage::kRender, Stage::kRefine}
-              : std::vector<Stage>{Stage::kRender, Stage::kTemplates, Stage::kMatch, Stage::kPose};
-  std::vector<Stage> reached;
-  for (const Stage stage : all)
-    if (stage == Stage::kRender || stage <= iteration.reached) reached.push_back(stage);
-  return reached;
+using sessions::IterationTrace;
+using sessions::kUnknown;
+
+std::vector<Stage> stagesOf(const IterationTrace& iteration) {
+  std::vector<Stage> stages = {Stage::kRender, Stage::kRefine};
+  if (iteration.kind == IterationKind::kMatch)
+    stages = {Stage::kRender, Stage::kTemplates, Stage::kMatch, Stage::kPose};
+  std::erase_if(stages, [&iteration](Stage stage) {
+    return stage != Stage::kRender && stage > iteration.reached;
+  });
+  return stages;
 }
 
 int shownStage(const std::vector<Stage>& stages, Stage cursor) {
@@ -38,155 +40,40 @@ int shownStage(const std::vector<Stage>& stages, Stage cursor) {
 RunCursor stageFrom(const sessions::LocalizationTrace& run, const RunCursor& cursor, int steps) {
   std::vector<RunCursor> all = {{-1, Stage::kFinished}};
   int at = 0;
-  for (int i = 0; i < static_cast<int>(run.iterations.size()); ++i)
+  for (int i = 0; i < static_cast<int>(run.iterations.size()); ++i) {
     for (const Stage stage : stagesOf(*run.iterations[static_cast<std::size_t>(i)])) {
       const bool reached = stage == Stage::kRender || stage <= cursor.stage;
       if (i < cursor.iteration || (i == cursor.iteration && reached))
         at = static_cast<int>(all.size());
       all.push_back({i, stage});
     }
-  const int last = static_cast<int>(all.size()) - 1;
-  const int next = std::clamp(at + steps, 0, last);
-  if (next == at) return cursor;
-  RunCursor found = all[static_cast<std::size_t>(next)];
-  const bool ends =
-      next == last || all[static_cast<std::size_t>(next) + 1].iteration != found.iteration;
-  if (ends) found.stage = Stage::kFinished;
-  return found;
+    all.back().stage = Stage::kFinished;
+  }
+  const int next = std::clamp(at + steps, 0, static_cast<int>(all.size()) - 1);
+  return next == at ? cursor : all[static_cast<std::size_t>(next)];
 }
 
 namespace {
 
 struct StageText {
-  Stage stage;
   const char* name;
   const char* help;
 };
+/// In the order of `Stage`.
 constexpr StageText kStageTexts[] = {
-    {Stage::kRender, QT_TR_NOOP("Render"),
+    {QT_TR_NOOP("Render"),
      QT_TR_NOOP("Show the edges rendered from the iteration's initial pose.")},
-    {Stage::kTemplates, QT_TR_NOOP("Templates"),
-     QT_TR_NOOP("Show the templates cut from the render.")},
-    {Stage::kMatch, QT_TR_NOOP("Match"),
-     QT_TR_NOOP("Show where the templates were found in the image.")},
-    {Stage::kPose, QT_TR_NOOP("Pose"),
+    {QT_TR_NOOP("Templates"), QT_TR_NOOP("Show the templates cut from the render.")},
+    {QT_TR_NOOP("Match"), QT_TR_NOOP("Show where the templates were found in the image.")},
+    {QT_TR_NOOP("Pose"),
      QT_TR_NOOP("Show the pose solved from the matches, its inliers and residuals.")},
-    {Stage::kRefine, QT_TR_NOOP("Refine"),
+    {QT_TR_NOOP("Refine"),
      QT_TR_NOOP("Show the pose refined until rendered and image edges meet.")},
 };
 
 const StageText& textOf(Stage stage) {
-  for (const StageText& text : kStageTexts)
-    if (text.stage == stage) return text;
-  return kStageTexts[std::size(kStageTexts) - 1];
+  return kStageTexts[static_cast<int>(stage) - static_cast<int>(Stage::kRender)];
 }
-
-}  // namespace
-
-RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
-  ui_.setupUi(this);
-  actions_ = {ui_.goFirst, ui_.goPrevious,      ui_.goNext,
-              ui_.goLast,  ui_.goPreviousStage, ui_.goNextStage};
-  const std::array buttons = {ui_.first, ui_.previous,      ui_.next,
-                              ui_.last,  ui_.previousStage, ui_.nextStage};
-  for (std::size_t i = 0; i < buttons.size(); ++i) {
-    buttons[i]->setDefaultAction(actions_[i]);
-    buttons[i]->setAccessibleName(actions_[i]->text());
-    connect(actions_[i], &QAction::triggered, this, [this, i] { go(static_cast<Step>(i)); });
-  }
-  ui_.shownIteration->setMinimumWidth(
-      fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
-  stages_ = new QButtonGroup(this);
-  for (QToolButton* each : {ui_.stage1, ui_.stage2, ui_.stage3, ui_.stage4})
-    stages_->addButton(each, stages_->buttons().size());
-  connect(stages_, &QButtonGroup::idClicked, this, &RunScrubber::chooseStage);
-  connect(ui_.iterations, &QSlider::valueChanged, this, [this](int value) {
-    view_.setCursor({value, Stage::kFinished});
-  });
-  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this, &RunScrubber::showCursor);
-  showCursor();
-}
-
-/// "2.3 (5 of 13)".
-void RunScrubber::showPlace() {
-  const auto* run = view_.snapshot().get();
-  const int iteration = view_.cursor().iteration;
-  const QString name = run ? fromText(sessions::iterationName(*run, iteration)) : tr("seed");
-  ui_.shownIteration->setText(
-      iteration < 0 ? name
-                    : tr("%1 (%2 of %3)").arg(name).arg(iteration + 1).arg(run->iterations.size()));
-}
-
-void RunScrubber::go(Step step) {
-  const RunCursor& cursor = view_.cursor();
-  const bool by_stage = step == Step::kPreviousStage || step == Step::kNextStage;
-  if (by_stage) {
-    if (!view_.snapshot()) return;
-    view_.setCursor(stageFrom(*view_.snapshot(), cursor, step == Step::kNextStage ? 1 : -1));
-    return;
-  }
-  const int target = step == Step::kFirst      ? -1
-                     : step == Step::kPrevious ? cursor.iteration - 1
-                     : step == Step::kNext     ? cursor.iteration + 1
-                                               : ui_.iterations->maximum();
-  view_.setCursor({target, Stage::kFinished});
-}
-
-void RunScrubber::chooseStage(int index) {
-  const auto shown = view_.iteration();
-  if (shown == nullptr) return;
-  const std::vector<Stage> stages = stagesOf(*shown);
-  const bool last = index + 1 >= static_cast<int>(stages.size());
-  view_.setCursor({view_.cursor().iteration,
-                   last ? Stage::kFinished : stages[static_cast<std::size_t>(index)]});
-}
-
-void RunScrubber::showCursor() {
-  const int last =
-      view_.snapshot() ? static_cast<int>(view_.snapshot()->iterations.size()) - 1 : -1;
-  const QSignalBlocker blocked(ui_.iterations);
-  ui_.iterations->setRange(-1, last);
-  ui_.iterations->setValue(view_.cursor().iteration);
-  ui_.iterations->setEnabled(last >= 0);
-  const bool at_start = view_.cursor().iteration < 0;
-  const bool at_end = view_.cursor().iteration >= last;
-  action(Step::kFirst)->setEnabled(!at_start);
-  action(Step::kPrevious)->setEnabled(!at_start);
-  action(Step::kNext)->setEnabled(!at_end);
-  action(Step::kLast)->setEnabled(!at_end);
-  showPlace();
-  showStages();
-}
-
-void RunScrubber::showStages() {
-  const auto shown = view_.iteration();
-  const std::vector<Stage> stages = shown ? stagesOf(*shown) : std::vector<Stage>();
-  const int chosen = shown ? shownStage(stages, view_.cursor().stage) : -1;
-  // An exclusive group cannot have none checked.
-  stages_->setExclusive(false);
-  for (int i = 0; i < stages_->buttons().size(); ++i) {
-    auto* button = qobject_cast<QToolButton*>(stages_->button(i));
-    const bool exists = i < static_cast<int>(stages.size());
-    button->setVisible(exists);
-    button->setChecked(i == chosen);
-    QFont weight = font();
-    weight.setBold(i == chosen);
-    button->setFont(weight);
-    if (!exists) continue;
-    button->setText(tr(textOf(stages[static_cast<std::size_t>(i)]).name));
-    button->setToolTip(tr(textOf(stages[static_cast<std::size_t>(i)]).help));
-  }
-  stages_->setExclusive(chosen >= 0);
-  const auto* run = view_.snapshot().get();
-  action(Step::kPreviousStage)->setEnabled(run && view_.cursor().iteration >= 0);
-  action(Step::kNextStage)
-      ->setEnabled(run && !(stageFrom(*run, view_.cursor(), 1) == view_.cursor()));
-}
-
-using sessions::IterationTrace;
-using sessions::kUnknown;
-
-namespace {
 
 /// Whether a pose came out of the iteration.
 bool isSolved(const IterationTrace& iteration) {
@@ -355,7 +242,99 @@ bool continues(const sessions::LocalizationTrace* former, const sessions::Locali
 
 }  // namespace
 
-IterationsModel::IterationsModel(QObject* parent) : RowsModel(iterationColumns(), parent) {}
+RunScrubber::RunScrubber(ViewState& view) : view_(view) {
+  ui_.setupUi(this);
+  actions_ = {ui_.goFirst, ui_.goPrevious,      ui_.goNext,
+              ui_.goLast,  ui_.goPreviousStage, ui_.goNextStage};
+  const std::array buttons = {ui_.first, ui_.previous,      ui_.next,
+                              ui_.last,  ui_.previousStage, ui_.nextStage};
+  for (std::size_t i = 0; i < buttons.size(); ++i) {
+    buttons[i]->setDefaultAction(actions_[i]);
+    buttons[i]->setAccessibleName(actions_[i]->text());
+    connect(actions_[i], &QAction::triggered, this, [this, i] { go(static_cast<Step>(i)); });
+  }
+  ui_.shownIteration->setMinimumWidth(
+      fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
+  stages_ = new QButtonGroup(this);
+  for (QToolButton* each : {ui_.stage1, ui_.stage2, ui_.stage3, ui_.stage4})
+    stages_->addButton(each, stages_->buttons().size());
+  connect(stages_, &QButtonGroup::idClicked, this, &RunScrubber::chooseStage);
+  connect(ui_.iterations, &QSlider::valueChanged, this, [this](int value) {
+    view_.setCursor({value, Stage::kFinished});
+  });
+  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this, &RunScrubber::showCursor);
+  showCursor();
+}
+
+/// "2.3 (5 of 13)".
+void RunScrubber::showPlace() {
+  const auto* run = view_.snapshot().get();
+  const int iteration = view_.cursor().iteration;
+  const QString name = run ? fromText(sessions::iterationName(*run, iteration)) : tr("seed");
+  ui_.shownIteration->setText(
+      iteration < 0 ? name
+                    : tr("%1 (%2 of %3)").arg(name).arg(iteration + 1).arg(run->iterations.size()));
+}
+
+void RunScrubber::go(Step step) {
+  const RunCursor& cursor = view_.cursor();
+  if (step == Step::kPreviousStage || step == Step::kNextStage)
+    return view_.setCursor(stageFrom(*view_.snapshot(), cursor, step == Step::kNextStage ? 1 : -1));
+  const int target = step == Step::kFirst      ? -1
+                     : step == Step::kPrevious ? cursor.iteration - 1
+                     : step == Step::kNext     ? cursor.iteration + 1
+                                               : ui_.iterations->maximum();
+  view_.setCursor({target, Stage::kFinished});
+}
+
+void RunScrubber::chooseStage(int index) {
+  const auto shown = view_.iteration();
+  if (shown == nullptr) return;
+  const std::vector<Stage> stages = stagesOf(*shown);
+  const bool last = index + 1 >= static_cast<int>(stages.size());
+  view_.setCursor({view_.cursor().iteration,
+                   last ? Stage::kFinished : stages[static_cast<std::size_t>(index)]});
+}
+
+void RunScrubber::showCursor() {
+  const int last =
+      view_.snapshot() ? static_cast<int>(view_.snapshot()->iterations.size()) - 1 : -1;
+  const QSignalBlocker blocked(ui_.iterations);
+  ui_.iterations->setRange(-1, last);
+  ui_.iterations->setValue(view_.cursor().iteration);
+  ui_.iterations->setEnabled(last >= 0);
+  for (const Step back : {Step::kFirst, Step::kPrevious})
+    action(back)->setEnabled(view_.cursor().iteration >= 0);
+  for (const Step forward : {Step::kNext, Step::kLast})
+    action(forward)->setEnabled(view_.cursor().iteration < last);
+  showPlace();
+  showStages();
+}
+
+void RunScrubber::showStages() {
+  const auto shown = view_.iteration();
+  const std::vector<Stage> stages = shown ? stagesOf(*shown) : std::vector<Stage>();
+  const int chosen = shown ? shownStage(stages, view_.cursor().stage) : -1;
+  // An exclusive group cannot have none checked.
+  stages_->setExclusive(false);
+  for (int i = 0; i < stages_->buttons().size(); ++i) {
+    auto* button = qobject_cast<QToolButton*>(stages_->button(i));
+    const bool exists = i < static_cast<int>(stages.size());
+    button->setVisible(exists);
+    button->setChecked(i == chosen);
+    button->setFont(boldFont(font(), i == chosen));
+    if (!exists) continue;
+    button->setText(tr(textOf(stages[static_cast<std::size_t>(i)]).name));
+    button->setToolTip(tr(textOf(stages[static_cast<std::size_t>(i)]).help));
+  }
+  stages_->setExclusive(chosen >= 0);
+  const auto* run = view_.snapshot().get();
+  action(Step::kPreviousStage)->setEnabled(run && view_.cursor().iteration >= 0);
+  action(Step::kNextStage)
+      ->setEnabled(run && !(stageFrom(*run, view_.cursor(), 1) == view_.cursor()));
+}
+
+IterationsModel::IterationsModel() : RowsModel(iterationColumns()) {}
 
 void IterationsModel::setSnapshot(SnapshotPtr snapshot) {
   std::vector<IterationRow> rows;
@@ -383,10 +362,18 @@ QVariant IterationsModel::look(const IterationRow& row, int column, int role) co
   return lists ? hypothesesList(*row.trace) : QVariant();
 }
 
-IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
+IterationsPanel::IterationsPanel(ViewState& view) : view_(view) {
   ui_.setupUi(this);
   buildTable();
-  buildPlots();
+  corrections_ = new DoublePlot({tr("moved, mm"), true}, {tr("turned, deg"), true});
+  fit_ = new DoublePlot({tr("inliers"), true}, {tr("rms, px"), false});
+  for (DoublePlot* plot : {corrections_, fit_}) {
+    plot->setNames([this](int iteration) { return model_.iterationName(iteration); });
+    ui_.plotRow->addWidget(plot);
+    connect(plot, &DoublePlot::chosen, this, [this](int iteration) {
+      view_.setCursor({iteration, Stage::kFinished});
+    });
+  }
   view_.onChange(ViewChange::kSnapshot, this, &IterationsPanel::showSnapshot);
   view_.onChange(ViewChange::kCursor, this, &IterationsPanel::showCursor);
   showSnapshot();
@@ -401,20 +388,11 @@ void IterationsPanel::buildTable() {
                     Model::kMeanScore, Model::kBestScore, Model::kThreshold_px, Model::kLevel,
                     Model::kTemplates, Model::kImage_px, Model::kMatches, Model::kRotation_deg});
   connect(ui_.iterations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
-          &IterationsPanel::chooseRow);
+          [this](const QModelIndex& current) {
+            if (!showing_ && current.isValid())
+              view_.setCursor({IterationsModel::iterationOf(current.row()), Stage::kFinished});
+          });
   hint_ = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));
-}
-
-void IterationsPanel::buildPlots() {
-  corrections_ = new DoublePlot({tr("moved, mm"), true}, {tr("turned, deg"), true});
-  fit_ = new DoublePlot({tr("inliers"), true}, {tr("rms, px"), false});
-  for (DoublePlot* plot : {corrections_, fit_}) {
-    plot->setNames([this](int iteration) { return model_.iterationName(iteration); });
-    ui_.plotRow->addWidget(plot);
-    connect(plot, &DoublePlot::chosen, this, [this](int iteration) {
-      view_.setCursor({iteration, Stage::kFinished});
-    });
-  }
 }
 
 QVector<QPointF> IterationsPanel::pointsOf(IterationsModel::Column column) const {
@@ -424,13 +402,6 @@ QVector<QPointF> IterationsPanel::pointsOf(IterationsModel::Column column) const
     if (!std::isnan(value)) points.append({static_cast<double>(i), value});
   }
   return points;
-}
-
-void IterationsPanel::fillPlots() {
-  const int count = std::max(0, IterationsModel::iterationOf(model_.rowCount()));
-  corrections_->setPoints(count, pointsOf(IterationsModel::kTranslation_mm),
-                          pointsOf(IterationsModel::kRotation_deg));
-  fit_->setPoints(count, pointsOf(IterationsModel::kInliers), pointsOf(IterationsModel::kRms_px));
 }
 
 void IterationsPanel::showSnapshot() {
@@ -444,23 +415,17 @@ void IterationsPanel::showSnapshot() {
                "is a row; every view shows the selected one."));
   ui_.iterations->resizeColumnsToContents();
   ui_.plots->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
-  fillPlots();
+  const int count = std::max(0, IterationsModel::iterationOf(model_.rowCount()));
+  corrections_->setPoints(count, pointsOf(IterationsModel::kTranslation_mm),
+                          pointsOf(IterationsModel::kRotation_deg));
+  fit_->setPoints(count, pointsOf(IterationsModel::kInliers), pointsOf(IterationsModel::kRms_px));
 }
 
 void IterationsPanel::showCursor() {
   const int iteration = view_.cursor().iteration;
-  showing_ = true;
-  const QModelIndex row = model_.index(IterationsModel::rowOf(iteration), 0);
-  ui_.iterations->setCurrentIndex(row);
-  if (row.isValid()) ui_.iterations->scrollTo(row);
-  showing_ = false;
+  followRow(*ui_.iterations, model_.index(IterationsModel::rowOf(iteration), 0), showing_);
   corrections_->setMarked(iteration);
   fit_->setMarked(iteration);
-}
-
-void IterationsPanel::chooseRow(const QModelIndex& current) {
-  if (showing_ || !current.isValid()) return;
-  view_.setCursor({IterationsModel::iterationOf(current.row()), Stage::kFinished});
 }
 
 }  // namespace boresight::ui

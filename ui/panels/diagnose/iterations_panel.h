@@ -44,7 +44,7 @@ class RunScrubber : public QWidget {
   enum class Step { kFirst, kPrevious, kNext, kLast, kPreviousStage, kNextStage };
   static constexpr int kStepCount = 6;
 
-  explicit RunScrubber(ViewState& view, QWidget* parent = nullptr);
+  explicit RunScrubber(ViewState& view);
 
   QAction* action(Step step) const { return actions_[static_cast<std::size_t>(step)]; }
 
@@ -96,7 +96,7 @@ class IterationsModel : public RowsModel<IterationRow> {
   };
   using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
-  explicit IterationsModel(QObject* parent = nullptr);
+  IterationsModel();
 
   void setSnapshot(SnapshotPtr snapshot);
 
@@ -120,18 +120,15 @@ class IterationsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit IterationsPanel(ViewState& view, QWidget* parent = nullptr);
+  explicit IterationsPanel(ViewState& view);
 
   const IterationsModel& model() const { return model_; }
 
  private:
   void buildTable();
-  void buildPlots();
   QVector<QPointF> pointsOf(IterationsModel::Column column) const;
-  void fillPlots();
   void showSnapshot();
   void showCursor();
-  void chooseRow(const QModelIndex& current);
 
   ViewState& view_;
   IterationsModel model_;

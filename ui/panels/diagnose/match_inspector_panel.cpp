@@ -32,8 +32,7 @@ void fitHeight(QTableWidget& table) {
 
 }  // namespace
 
-MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
-    : QWidget(parent), view_(view) {
+MatchInspectorPanel::MatchInspectorPanel(ViewState& view) : view_(view) {
   filter_.setSourceModel(&model_);
   ui_.setupUi(this);
   ui_.splitter->setStretchFactor(0, 1);
@@ -47,8 +46,8 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
     table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   }
-  histogram_ = new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"),
-                                 tr("used"), ui_.refinement);
+  histogram_ =
+      new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"), tr("used"));
   histogram_->setToolTip(
       tr("Distance of the image's edges from the rendered edges after this refinement, in pixels "
          "of the full image. A good pose has a narrow peak at 0."));
@@ -57,7 +56,7 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   connect(ui_.showMatches, &QPushButton::clicked, this, [this] {
     if (const auto matched = lastMatched()) view_.setCursor({*matched, Stage::kFinished});
   });
-  connect(ui_.show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
+  connect(ui_.show, kIndexChanged, this, [this](int index) {
     showing_ = true;
     filter_.setCondition([this, show = static_cast<TemplatesModel::Show>(index)](int source_row) {
       return model_.isShown(source_row, show);
@@ -67,7 +66,10 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
     showTemplate();
   });
   connect(ui_.templates->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
-          &MatchInspectorPanel::chooseRow);
+          [this](const QModelIndex& current) {
+            if (!showing_ && current.isValid())
+              view_.selectTemplate(filter_.mapToSource(current).row());
+          });
   view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this,
                  &MatchInspectorPanel::showIteration);
   view_.onChange(ViewChange::kTemplate, this, &MatchInspectorPanel::showTemplate);
@@ -114,18 +116,17 @@ std::optional<int> MatchInspectorPanel::lastMatched() const {
 /// Shares by kind of edge, and distances of the image's edges.
 void MatchInspectorPanel::showRefinement() {
   const auto statistics = sessions::sampleStatistics(*iteration_, kBins);
-  const std::pair<QString, const sessions::SampleCounts&> rows[] = {
-      {tr("all"), statistics.all},
-      {tr("outline"), statistics.border},
-      {tr("occluding"), statistics.occluding},
-      {tr("creases"), statistics.creases}};
-  QTableWidget& table = *ui_.edges;
-  table.setRowCount(0);
-  for (const auto& [name, counts] : rows)
-    addRow(table,
+  const auto add = [this](const QString& name, const sessions::SampleCounts& counts) {
+    addRow(*ui_.edges,
            {name, QString::number(counts.places), placesText(counts.found, counts.foundShare()),
             placesText(counts.used, counts.usedShare())});
-  fitHeight(table);
+  };
+  ui_.edges->setRowCount(0);
+  add(tr("all"), statistics.all);
+  add(tr("outline"), statistics.border);
+  add(tr("occluding"), statistics.occluding);
+  add(tr("creases"), statistics.creases);
+  fitHeight(*ui_.edges);
   showDirections();
   ui_.showMatches->setEnabled(lastMatched().has_value());
   histogram_->setCounts(statistics.radius_px, asVector(statistics.found_in_bin),
@@ -154,22 +155,12 @@ void MatchInspectorPanel::showDirections() {
 
 void MatchInspectorPanel::showTemplate() {
   const int selected = view_.selectedTemplate();
-  showing_ = true;
-  const QModelIndex row = filter_.mapFromSource(model_.index(selected, 0));
-  ui_.templates->setCurrentIndex(row);
-  if (row.isValid()) ui_.templates->scrollTo(row);
-  showing_ = false;
+  followRow(*ui_.templates, filter_.mapFromSource(model_.index(selected, 0)), showing_);
   const auto* run = view_.snapshot().get();
-  if (selected < 0 || selected >= model_.rowCount() || !run || !run->edges) {
+  if (selected >= 0 && selected < model_.rowCount() && run && run->edges)
+    ui_.match->showMatch(run->edges, iteration_, selected);
+  else
     ui_.match->showNote(tr("Select a template in the table or in the image."));
-    return;
-  }
-  ui_.match->showMatch(run->edges, iteration_, selected);
-}
-
-void MatchInspectorPanel::chooseRow(const QModelIndex& current) {
-  if (showing_ || !current.isValid()) return;
-  view_.selectTemplate(filter_.mapToSource(current).row());
 }
 
 }  // namespace boresight::ui

@@ -21,7 +21,7 @@ class MatchInspectorPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit MatchInspectorPanel(ViewState& view, QWidget* parent = nullptr);
+  explicit MatchInspectorPanel(ViewState& view);
 
   const TemplatesModel& model() const { return model_; }
   const RowsFilter& filter() const { return filter_; }
@@ -31,7 +31,6 @@ class MatchInspectorPanel : public QWidget {
   void showRefinement();
   void showDirections();
   void showTemplate();
-  void chooseRow(const QModelIndex& current);
   void showCount();
   std::optional<int> lastMatched() const;
 

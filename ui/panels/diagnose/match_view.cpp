@@ -67,9 +67,26 @@ std::vector<TableColumn<MatchDetails>> templateColumns() {
   };
 }
 
+const QString kScoreMapTask = QStringLiteral("score map");
+
+QString pairText(const Eigen::Vector2d& pixel, int decimals) {
+  return QStringLiteral("%1, %2").arg(numberText(pixel.x(), decimals),
+                                      numberText(pixel.y(), decimals));
+}
+
+/// The score next to that of the second peak.
+QString scoreText(const MatchDetails& details) {
+  const QString score = numberText(details.score, 3);
+  if (std::isnan(details.margin)) return MatchView::tr("%1, no second peak").arg(score);
+  const QString text =
+      MatchView::tr("%1, second peak %2, margin %3 %")
+          .arg(score, numberText(details.second_score, 3), numberText(100.0 * details.margin, 1));
+  return details.hasLowMargin() ? text + MatchView::tr(" (low)") : text;
+}
+
 }  // namespace
 
-TemplatesModel::TemplatesModel(QObject* parent) : RowsModel(templateColumns(), parent) {}
+TemplatesModel::TemplatesModel() : RowsModel(templateColumns()) {}
 
 void TemplatesModel::setIteration(const sessions::IterationTrace* iteration) {
   reached_match_ = iteration && iteration->reached >= Stage::kMatch;
@@ -107,37 +124,10 @@ bool TemplatesModel::isShown(int row, Show show) const {
   return holds[static_cast<std::size_t>(show)];
 }
 
-using sessions::MatchDetails;
-
-namespace {
-
-QString scoreMapTask() { return QStringLiteral("score map"); }
-
-QString pairText(const Eigen::Vector2d& pixel, int decimals) {
-  return QStringLiteral("%1, %2").arg(numberText(pixel.x(), decimals),
-                                      numberText(pixel.y(), decimals));
-}
-
-/// The score next to that of the second peak.
-QString scoreText(const MatchDetails& details) {
-  const QString score = numberText(details.score, 3);
-  if (std::isnan(details.margin)) return MatchView::tr("%1, no second peak").arg(score);
-  const QString text =
-      MatchView::tr("%1, second peak %2, margin %3 %")
-          .arg(score, numberText(details.second_score, 3), numberText(100.0 * details.margin, 1));
-  return details.hasLowMargin() ? text + MatchView::tr(" (low)") : text;
-}
-
-QString countText(int part, int whole, double share) {
-  return MatchView::tr("%1 = %2 of %3 px").arg(numberText(share, 3)).arg(part).arg(whole);
-}
-
-}  // namespace
-
 MatchView::MatchView(QWidget* parent) : QWidget(parent) { ui_.setupUi(this); }
 
 void MatchView::showNote(const QString& note) {
-  runner_.cancel(scoreMapTask());
+  runner_.cancel(kScoreMapTask);
   for (PixelPicture* picture : {ui_.templatePicture, ui_.foundPicture, ui_.agreementPicture})
     picture->setPicture({}, {});
   ui_.places->clear();
@@ -148,7 +138,7 @@ void MatchView::showNote(const QString& note) {
 void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
                           std::shared_ptr<const sessions::IterationTrace> iteration,
                           int template_index) {
-  runner_.cancel(scoreMapTask());
+  runner_.cancel(kScoreMapTask);
   const auto index = static_cast<std::size_t>(template_index);
   const bool searched = index < iteration->matches.size() && iteration->matches[index].searched;
   const Match* match = searched ? &iteration->matches[index] : nullptr;
@@ -166,7 +156,7 @@ void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
   const Template& item = iteration->templates[index];
   const ScoreMapView::Marks marks = {item.center_x, item.center_y, match->peak};
   runner_.start(
-      scoreMapTask(),
+      kScoreMapTask,
       [edges, iteration, template_index](const std::stop_token& stop) {
         return sessions::scoreMap(*edges, *iteration, template_index, stop);
       },
@@ -205,10 +195,9 @@ void MatchView::showPictures(const sessions::EdgeMapTrace& edges,
 void MatchView::showFigures(const sessions::IterationTrace& iteration,
                             const MatchDetails& details) {
   const Eigen::Vector3d point_mm = 1e3 * details.point_in_station_m;
+  const QString border = details.at_border ? tr(", at the window's border") : QString();
   QVector<QStringList> places = {
-      {tr("Template %1").arg(details.index + 1),
-       TemplatesModel::verdictOf(details) +
-           (details.at_border ? tr(", at the window's border") : QString())},
+      {tr("Template %1").arg(details.index + 1), TemplatesModel::verdictOf(details) + border},
       {tr("Point (station frame)"),
        tr("%1, %2, %3 mm; depth %4 m")
            .arg(numberText(point_mm.x(), 2), numberText(point_mm.y(), 2),
@@ -217,18 +206,18 @@ void MatchView::showFigures(const sessions::IterationTrace& iteration,
   QVector<QStringList> scores;
   if (details.searched) {
     const Match& match = iteration.matches[static_cast<std::size_t>(details.index)];
+    const auto count = [&iteration](int part, int whole, double share) {
+      if (!iteration.recorded_scores.empty()) return tr("not in the onboard record");
+      return tr("%1 = %2 of %3 px").arg(numberText(share, 3)).arg(part).arg(whole);
+    };
     places.append(
         {tr("Found at"), tr("%1 px, moved by %2 px")
                              .arg(pairText(details.found_px, 2), pairText(details.moved_px(), 2))});
-    scores.append({tr("Score S"), scoreText(details)});
-    const bool counted = iteration.recorded_scores.empty();
-    const QString unknown = tr("not in the onboard record");
-    scores.append({tr("S+/c+, edges"), counted ? countText(match.peak.counts.edge_hits,
-                                                           match.norms.edges, details.edge_share)
-                                               : unknown});
-    scores.append({tr("S-/c-, empty"), counted ? countText(match.peak.counts.empty_hits,
-                                                           match.norms.empties, details.empty_share)
-                                               : unknown});
+    scores = {{tr("Score S"), scoreText(details)},
+              {tr("S+/c+, edges"),
+               count(match.peak.counts.edge_hits, match.norms.edges, details.edge_share)},
+              {tr("S-/c-, empty"),
+               count(match.peak.counts.empty_hits, match.norms.empties, details.empty_share)}};
   }
   if (details.solved)
     scores.append({tr("Residual"), tr("%1 px, threshold %2 px")

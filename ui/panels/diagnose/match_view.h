@@ -39,7 +39,7 @@ class TemplatesModel : public RowsModel<sessions::MatchDetails> {
   /// Filter of the listed templates.
   enum class Show { kAll, kInliers, kOutliers, kLowMargin, kAtBorder, kNotSearched };
 
-  explicit TemplatesModel(QObject* parent = nullptr);
+  TemplatesModel();
 
   /// nullptr, or an iteration without templates: no rows.
   void setIteration(const sessions::IterationTrace* iteration);

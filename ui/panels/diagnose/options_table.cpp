@@ -7,6 +7,7 @@
 #include <QtWidgets>
 
 #include "sessions/io/json/json_reader.h"
+#include "sessions/text/plain_text.h"
 #include "ui/widgets/column_fitter.h"
 #include "ui/widgets/widgets.h"
 
@@ -24,7 +25,7 @@ QString plainText(const OptionDescription& option) {
   return fromText(sessions::valueText(bare, option.value));
 }
 
-/// Rounded to what an operator compares; tool tip and editor have the whole value.
+/// Rounded for comparison by eye; tool tip and editor show the whole value.
 QString shownText(const OptionDescription& option) {
   constexpr int kDigits = 6;
   const QString whole = plainText(option);
@@ -116,7 +117,7 @@ class OptionDelegate : public QStyledItemDelegate {
 
 }  // namespace
 
-OptionsModel::OptionsModel(QObject* parent) : RowsModel(optionColumns(), parent) {}
+OptionsModel::OptionsModel() : RowsModel(optionColumns()) {}
 
 void OptionsModel::setOptions(const std::vector<OptionDescription>& current,
                               const std::vector<OptionDescription>& by_default) {
@@ -136,11 +137,7 @@ void OptionsModel::reset(int row) {
 
 QString OptionsModel::rangeText(const OptionDescription& option) {
   if (option.kind == OptionKind::kBoolean) return tr("true, false");
-  if (option.kind == OptionKind::kChoice) {
-    QStringList names;
-    for (const std::string& choice : option.choices) names.append(fromText(choice));
-    return names.join(QStringLiteral(", "));
-  }
+  if (option.kind == OptionKind::kChoice) return fromText(sessions::joined(option.choices));
   return fromText(sessions::numberText(option.minimum) + " .. " +
                   sessions::numberText(option.maximum));
 }
@@ -154,11 +151,8 @@ QVariant OptionsModel::look(const OptionRow& row, int column, int role) const {
     case Qt::CheckStateRole:
       if (!isSwitch(row, column)) return {};
       return static_cast<int>(std::get<bool>(row.now.value) ? Qt::Checked : Qt::Unchecked);
-    case Qt::FontRole: {
-      QFont font;
-      font.setBold(row.isChanged() && column <= kValue);
-      return font;
-    }
+    case Qt::FontRole:
+      return boldFont(QFont(), row.isChanged() && column <= kValue);
     default:
       return {};
   }
@@ -229,8 +223,15 @@ void OptionsTable::setFilter(const QString& words, bool changed_only) {
   });
 }
 
+void OptionsTable::describeIn(QLabel& help, const QString& prompt) {
+  help_ = &help;
+  prompt_ = prompt;
+  help.setMinimumHeight(2 * help.fontMetrics().lineSpacing());
+}
+
 void OptionsTable::showHelp() {
-  Q_EMIT helpChanged(currentIndex().data(Qt::ToolTipRole).toString());
+  const QString help = currentIndex().data(Qt::ToolTipRole).toString();
+  help_->setText(help.isEmpty() ? prompt_ : help);
 }
 
 }  // namespace boresight::ui

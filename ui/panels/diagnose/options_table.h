@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <QLabel>
 #include <QTableView>
 
 #include "sessions/io/json/option_value.h"
@@ -26,7 +27,7 @@ class OptionsModel : public RowsModel<OptionRow> {
  public:
   enum Column { kName, kValue, kReset, kUnit, kDefault, kRange };
 
-  explicit OptionsModel(QObject* parent = nullptr);
+  OptionsModel();
 
   /// Both lists hold the same options in the same order.
   void setOptions(const std::vector<sessions::OptionDescription>& current,
@@ -57,21 +58,33 @@ class OptionsTable : public QTableView {
   explicit OptionsTable(QWidget* parent = nullptr);
 
   OptionsModel& options() { return model_; }
+  /// Where the chosen option is described and refused edits are reported; `prompt` asks to choose
+  /// one. To be called before setOptions().
+  void describeIn(QLabel& help, const QString& prompt);
+  /// Changes one of the owner's options. Returns false, and reports why, if the value is refused.
+  template <class Options>
+  bool apply(Options& options, const std::string& name, const std::string& value) {
+    try {
+      sessions::applyOptionText(options, name, value);
+      return true;
+    } catch (const sessions::OptionError& error) {
+      help_->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
+      return false;
+    }
+  }
   void setOptions(const std::vector<sessions::OptionDescription>& current,
                   const std::vector<sessions::OptionDescription>& by_default);
   /// Shows the options whose name or help holds every word; with `changed_only` only those that
   /// differ from their default.
   void setFilter(const QString& words, bool changed_only);
 
- Q_SIGNALS:
-  /// Help on the chosen option; empty when none is chosen.
-  void helpChanged(const QString& help);
-
  private:
   void showHelp();
 
   OptionsModel model_;
   RowsFilter filter_;
+  QLabel* help_ = nullptr;
+  QString prompt_;
 };
 
 }  // namespace boresight::ui

@@ -20,35 +20,59 @@ bool bitAt(const BitImage& image, const PatchPlace& place, int u, int v) {
   return image.contains(x, y) && image.get(x, y);
 }
 
+QSize sideOf(const PatchPlace& place) { return {place.side_px, place.side_px}; }
+
 /// color_of(u, v) for every pixel.
 template <class ColorOf>
-QImage drawn(int side_px, const ColorOf& color_of) {
-  QImage picture(side_px, side_px, QImage::Format_RGB32);
-  for (int v = 0; v < side_px; ++v) {
+QImage drawn(const QSize& size, const ColorOf& color_of) {
+  QImage picture(size, QImage::Format_RGB32);
+  for (int v = 0; v < size.height(); ++v) {
     auto* line = reinterpret_cast<QRgb*>(picture.scanLine(v));
-    for (int u = 0; u < side_px; ++u) line[u] = color_of(u, v);
+    for (int u = 0; u < size.width(); ++u) line[u] = color_of(u, v);
   }
   return picture;
+}
+
+/// From here on squares of unequal size would be seen as such; below, size counts for more.
+constexpr double kWholeScale = 3.0;
+
+QImage heatPicture(const sessions::ScoreMap& map) {
+  const SearchWindow& window = map.window;
+  const double range = map.highest - map.lowest;
+  return drawn(QSize(window.width(), window.height()), [&](int u, int v) {
+    const double score = map.scoreAt(window.x_min + u, window.y_min + v);
+    return heatColor(range > 0.0 ? (score - map.lowest) / range : 0.0).rgb();
+  });
+}
+
+void drawMark(QPainter& painter, MarkShape shape, const QPointF& at, double radius) {
+  Mark mark;
+  mark.shape = shape;
+  mark.at = at - QPointF(0.5, 0.5);
+  mark.size_px = 2.0 * radius;
+  mark.cased = true;  // shows on every colour
+  mark.width = 1.8;
+  paintMark(painter, ViewTransform(), mark, Qt::white);
 }
 
 }  // namespace
 
 QImage templatePicture(const BitImage& edges, const BitImage& mask, const PatchPlace& place) {
-  return drawn(place.side_px, [&](int u, int v) {
+  return drawn(sideOf(place), [&](int u, int v) {
     if (bitAt(edges, place, u, v)) return patch_colors::kEdge;
     return bitAt(mask, place, u, v) ? patch_colors::kMask : patch_colors::kGround;
   });
 }
 
 QImage seenPicture(const BitImage& test_edges, const PatchPlace& place) {
-  return drawn(place.side_px, [&](int u, int v) {
+  return drawn(sideOf(place), [&](int u, int v) {
     return bitAt(test_edges, place, u, v) ? patch_colors::kEdge : patch_colors::kGround;
   });
 }
 
 QImage agreementPicture(const BitImage& edges, const BitImage& mask, const PatchPlace& rendered,
                         const BitImage& test_edges, const PatchPlace& found) {
-  return drawn(rendered.side_px, [&](int u, int v) {
+  return drawn(sideOf(rendered), [&](int u, int v) {
     if (!bitAt(mask, rendered, u, v)) return patch_colors::kGround;
     const bool is_rendered = bitAt(edges, rendered, u, v);
     const bool is_seen = bitAt(test_edges, found, u, v);
@@ -57,13 +81,6 @@ QImage agreementPicture(const BitImage& edges, const BitImage& mask, const Patch
     return is_seen ? patch_colors::kOnlySeen : patch_colors::kMask;
   });
 }
-
-namespace {
-
-/// From here on squares of unequal size would be seen as such; below, size counts for more.
-constexpr double kWholeScale = 3.0;
-
-}  // namespace
 
 QRectF pixelPlace(const QSize& picture, const QRectF& room, double device_pixel_ratio) {
   const double across = room.width() * device_pixel_ratio / std::max(1, picture.width());
@@ -125,33 +142,6 @@ void PixelPicture::paintEvent(QPaintEvent* /*event*/) {
   painter.drawImage(place(), picture_);
   paintOver(painter);
 }
-
-namespace {
-
-QImage heatPicture(const sessions::ScoreMap& map) {
-  const SearchWindow& window = map.window;
-  const double range = map.highest - map.lowest;
-  QImage picture(window.width(), window.height(), QImage::Format_RGB32);
-  for (int y = window.y_min; y <= window.y_max; ++y) {
-    auto* line = reinterpret_cast<QRgb*>(picture.scanLine(y - window.y_min));
-    for (int x = window.x_min; x <= window.x_max; ++x)
-      line[x - window.x_min] =
-          heatColor(range > 0.0 ? (map.scoreAt(x, y) - map.lowest) / range : 0.0).rgb();
-  }
-  return picture;
-}
-
-void drawMark(QPainter& painter, MarkShape shape, const QPointF& at, double radius) {
-  Mark mark;
-  mark.shape = shape;
-  mark.at = at - QPointF(0.5, 0.5);
-  mark.size_px = 2.0 * radius;
-  mark.cased = true;  // shows on every colour
-  mark.width = 1.8;
-  paintMark(painter, ViewTransform(), mark, Qt::white);
-}
-
-}  // namespace
 
 ScoreMapView::ScoreMapView(QWidget* parent) : PixelPicture(parent) { setTitle(tr("Score map")); }
 

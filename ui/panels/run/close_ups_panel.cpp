@@ -14,7 +14,7 @@
 namespace boresight::ui {
 namespace {
 
-/// Side of the squares that are searched for corners: about what a close-up shows.
+/// Side of the squares that are searched for corners: about that of a close-up.
 constexpr double kSide_px = 32.0;
 /// Zoom of the canvas after a click, at least.
 constexpr double kCanvasScale = 8.0;
@@ -87,24 +87,12 @@ void CloseUpView::mousePressEvent(QMouseEvent* /*event*/) {
   if (place_) image_.view().centreOn(pointOf(place_->center_px), kCanvasScale);
 }
 
-CloseUpsPanel::CloseUpsPanel(ImagePanel& image, ViewState& state, QWidget* parent)
-    : QWidget(parent),
-      state_(state),
-      pages_(new QStackedLayout(this)),
-      grid_(new QWidget),
-      hint_(new QLabel(tr("Iterations that refine the pose on edges have close-ups here."))) {
-  auto* grid = new QGridLayout(grid_);
-  grid->setContentsMargins(kPanelMargin, kBlockGap, kPanelMargin, kBlockGap);
-  grid->setSpacing(kBlockGap);
+CloseUpsPanel::CloseUpsPanel(ImagePanel& image, ViewState& state) : state_(state) {
+  ui_.setupUi(this);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     views_[i] = new CloseUpView(image);
-    grid->addWidget(views_[i], static_cast<int>(i / 2), static_cast<int>(i % 2));
+    ui_.grid->addWidget(views_[i], static_cast<int>(i / 2), static_cast<int>(i % 2));
   }
-  hint_->setAlignment(Qt::AlignCenter);
-  hint_->setWordWrap(true);
-  hint_->setMargin(12);
-  pages_->addWidget(hint_);
-  pages_->addWidget(grid_);
   state_.onChange(ViewChange::kSnapshot | ViewChange::kCursor | ViewChange::kCase, this,
                   &CloseUpsPanel::showIteration);
   showIteration();
@@ -120,7 +108,7 @@ void CloseUpsPanel::showIteration() {
   for (std::size_t i = 0; i < views_.size(); ++i)
     views_[i]->setPlace(i < close_ups.size() ? std::optional(close_ups[i]) : std::nullopt,
                         rejected);
-  pages_->setCurrentWidget(close_ups.empty() ? static_cast<QWidget*>(hint_) : grid_);
+  ui_.pages->setCurrentIndex(close_ups.empty() ? 0 : 1);
 }
 
 }  // namespace boresight::ui

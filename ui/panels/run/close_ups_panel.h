@@ -6,10 +6,9 @@
 
 #include <QWidget>
 
-#include "sessions/trace/close_ups.h"
+#include "ui_close_ups_panel.h"
 
-class QLabel;
-class QStackedLayout;
+#include "sessions/trace/close_ups.h"
 
 namespace boresight::ui {
 
@@ -53,16 +52,14 @@ class CloseUpsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  CloseUpsPanel(ImagePanel& image, ViewState& state, QWidget* parent = nullptr);
+  CloseUpsPanel(ImagePanel& image, ViewState& state);
 
  private:
   void showIteration();
 
   ViewState& state_;
-  QStackedLayout* pages_;
-  QWidget* grid_;
-  QLabel* hint_;
   std::array<CloseUpView*, 4> views_{};
+  Ui::CloseUpsPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/run/nudge_box.h"
 
-#include <QKeyEvent>
+#include <map>
+
 #include <QtWidgets>
 
 #include "core/base/math.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
+
+constexpr double kMillimetresPerMetre = 1e3;
+
+/// From the controller's units (rad, m) to the shown ones (deg, mm).
+double shownUnit(int axis) { return axis < 3 ? 1.0 / kDegree_rad : kMillimetresPerMetre; }
 
 Eigen::Vector3d pivotInCamera_m(const Pose& camera_from_station, const NudgeFrame& frame) {
   if (frame.pivot == NudgePivot::kCameraCentre) return Eigen::Vector3d::Zero();
@@ -39,38 +46,21 @@ Vector6d nudgeBetween(const Pose& camera_from_station_base, const Pose& camera_f
   return own ? turned(camera_from_station_base.rotation.conjugate(), offset) : offset;
 }
 
-namespace {
-
-/// The axis (0..2) and the sense of a key; sense 0 for keys that nudge nothing.
-struct KeyAxis {
-  int axis = 0;
-  double sense = 0.0;
-};
-
-struct KeyNudge {
-  int key;
-  KeyAxis move;
-  KeyAxis turn;  ///< so that what is near the viewer goes where the arrow points
-};
-constexpr std::array<KeyNudge, 6> kKeyNudges = {{
-    {Qt::Key_Left, {0, -1.0}, {1, 1.0}},
-    {Qt::Key_Right, {0, 1.0}, {1, -1.0}},
-    {Qt::Key_Up, {1, -1.0}, {0, -1.0}},  // the camera's y points down
-    {Qt::Key_Down, {1, 1.0}, {0, 1.0}},
-    {Qt::Key_PageUp, {2, 1.0}, {2, 1.0}},
-    {Qt::Key_PageDown, {2, -1.0}, {2, -1.0}},
-}};
-
-KeyAxis nudgeOf(int key, bool turns) {
-  for (const KeyNudge& each : kKeyNudges)
-    if (each.key == key) return turns ? each.turn : each.move;
-  return {};
+Eigen::Vector3d directionOf(int key) {
+  static const std::map<int, Eigen::Vector3d> kDirections = {
+      {Qt::Key_Left, {-1.0, 0.0, 0.0}},  {Qt::Key_Right, {1.0, 0.0, 0.0}},
+      {Qt::Key_Up, {0.0, -1.0, 0.0}},    {Qt::Key_Down, {0.0, 1.0, 0.0}},
+      {Qt::Key_PageUp, {0.0, 0.0, 1.0}}, {Qt::Key_PageDown, {0.0, 0.0, -1.0}}};
+  const auto found = kDirections.find(key);
+  if (found == kDirections.end()) return Eigen::Vector3d::Zero();
+  return found->second;
 }
 
-}  // namespace
+Eigen::Vector3d turnOf(const Eigen::Vector3d& direction) {
+  return {direction.y(), -direction.x(), direction.z()};
+}
 
-NudgeController::NudgeController(ViewState& state, QObject* parent)
-    : QObject(parent), state_(state) {
+NudgeController::NudgeController(ViewState& state) : state_(state) {
   pause_.setSingleShot(true);
   pause_.setInterval(kPause_ms);
   connect(&pause_, &QTimer::timeout, this, &NudgeController::finishGesture);
@@ -110,20 +100,18 @@ void NudgeController::setPivot(NudgePivot pivot) {
   Q_EMIT changed();
 }
 
-/// What the views would show if nothing was nudged.
+/// The pose that the views would show without nudging.
 Pose NudgeController::estimate() const {
   if (const auto estimate = poseOf(state_, PoseRole::kEstimate)) return *estimate;
   return poseOf(state_, PoseRole::kSeed).value_or(Pose());
 }
-
-Pose NudgeController::base() const { return base_ ? *base_ : estimate(); }
 
 Vector6d NudgeController::offset() const {
   if (!state_.nudgedPose()) return Vector6d::Zero();
   return nudgeBetween(base(), *state_.nudgedPose(), frame_);
 }
 
-void NudgeController::move(const Pose& camera_from_station) {
+void NudgeController::moveTo(const Pose& camera_from_station) {
   if (!state_.currentCase() || !camera_from_station.isFinite()) return;
   if (!base_) base_ = estimate();
   if (!before_) before_ = state_.shownPose();
@@ -131,21 +119,15 @@ void NudgeController::move(const Pose& camera_from_station) {
   state_.setNudgedPose(camera_from_station);
 }
 
-void NudgeController::nudgeBy(const Vector6d& steps) {
-  move(nudged(state_.shownPose(), steps, frame_));
-}
-
-void NudgeController::setOffset(const Vector6d& offset) { move(nudged(base(), offset, frame_)); }
-
 void NudgeController::setOffset(int axis, double value) {
   Vector6d next = offset();
   next[axis] = value;
-  setOffset(next);
+  moveTo(nudged(base(), next, frame_));
 }
 
 void NudgeController::setPose(const Pose& camera_from_station) {
   finishGesture();
-  move(camera_from_station);
+  moveTo(camera_from_station);
   finishGesture();
 }
 
@@ -164,6 +146,11 @@ void NudgeController::drop() {
   Q_EMIT gestureFinished(before, state_.shownPose());
 }
 
+void NudgeController::useAsSeed() {
+  finishGesture();
+  if (state_.nudgedPose()) Q_EMIT useAsSeedRequested(*state_.nudgedPose());
+}
+
 void NudgeController::finishGesture() {
   pause_.stop();
   if (!before_) return;
@@ -173,18 +160,15 @@ void NudgeController::finishGesture() {
   if (!(before == after)) Q_EMIT gestureFinished(before, after);
 }
 
-bool NudgeController::takes(const QKeyEvent& event) const {
-  return state_.currentCase() && nudgeOf(event.key(), false).sense != 0.0;
-}
-
 bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
   const QEvent::Type type = event->type();
   if (type == QEvent::FocusOut) finishGesture();
   const bool is_key =
       type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
-  if (!is_key) return QObject::eventFilter(watched, event);
+  if (!is_key || !state_.currentCase()) return QObject::eventFilter(watched, event);
   const auto& key = static_cast<const QKeyEvent&>(*event);
-  if (!takes(key)) return QObject::eventFilter(watched, event);
+  const Eigen::Vector3d direction = directionOf(key.key());
+  if (direction.isZero()) return QObject::eventFilter(watched, event);
   if (type == QEvent::ShortcutOverride) {
     event->accept();
     return false;
@@ -194,34 +178,31 @@ bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
     return true;
   }
   const Qt::KeyboardModifiers modifiers = key.modifiers();
-  const bool turns = modifiers.testFlag(Qt::ControlModifier);
   double factor = 1.0;
   if (modifiers.testFlag(Qt::ShiftModifier)) factor *= kCoarse;
   if (modifiers.testFlag(Qt::AltModifier)) factor *= kFine;
-  const KeyAxis chosen = nudgeOf(key.key(), turns);
   Vector6d steps = Vector6d::Zero();
-  steps[turns ? chosen.axis : 3 + chosen.axis] =
-      chosen.sense * factor * (turns ? step_.rotation_rad : step_.translation_m);
-  nudgeBy(steps);
+  if (modifiers.testFlag(Qt::ControlModifier))
+    steps.head<3>() = factor * step_.rotation_rad * turnOf(direction);
+  else
+    steps.tail<3>() = factor * step_.translation_m * direction;
+  moveTo(nudged(state_.shownPose(), steps, frame_));
   // A key that repeats holds the gesture open until it is let go.
   pause_.stop();
   return true;
 }
 
-namespace {
-
-constexpr double kMillimetres = 1e3;
-
-/// From what the controller counts in (rad, m) to what the operator reads (deg, mm).
-double shownUnit(int axis) { return axis < 3 ? 1.0 / kDegree_rad : kMillimetres; }
-
-}  // namespace
-
-NudgeBox::NudgeBox(NudgeController& controller, ViewState& state, QWidget* parent)
-    : QWidget(parent), controller_(controller), state_(state) {
+NudgeBox::NudgeBox(NudgeController& controller, ViewState& state)
+    : controller_(controller), state_(state) {
   ui_.setupUi(this);
   values_ = {ui_.turnX, ui_.turnY, ui_.turnZ, ui_.moveX, ui_.moveY, ui_.moveZ};
-  connectValues();
+  for (int axis = 0; axis < 6; ++axis) {
+    QDoubleSpinBox* box = values_[static_cast<std::size_t>(axis)];
+    box->installEventFilter(this);
+    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+            [this, axis](double value) { controller_.setOffset(axis, value / shownUnit(axis)); });
+    connect(box, &QDoubleSpinBox::editingFinished, &controller_, &NudgeController::finishGesture);
+  }
   connectSettings();
   ui_.nudgePad->installEventFilter(&controller_);
   ui_.nudgePad->installEventFilter(this);
@@ -230,36 +211,24 @@ NudgeBox::NudgeBox(NudgeController& controller, ViewState& state, QWidget* paren
   showOffset();
 }
 
-void NudgeBox::connectValues() {
-  for (int axis = 0; axis < 6; ++axis) {
-    QDoubleSpinBox* box = values_[static_cast<std::size_t>(axis)];
-    box->installEventFilter(this);
-    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-            [this, axis](double value) { controller_.setOffset(axis, value / shownUnit(axis)); });
-    connect(box, &QDoubleSpinBox::editingFinished, &controller_, &NudgeController::finishGesture);
-  }
-}
-
 void NudgeBox::connectSettings() {
-  connect(ui_.axes, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+  connect(ui_.axes, kIndexChanged, this,
           [this](int index) { controller_.setAxes(static_cast<NudgeAxes>(index)); });
-  connect(ui_.pivot, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+  connect(ui_.pivot, kIndexChanged, this,
           [this](int index) { controller_.setPivot(static_cast<NudgePivot>(index)); });
-  ui_.moveStep->setValue(kMillimetres * controller_.step().translation_m);
+  ui_.moveStep->setValue(kMillimetresPerMetre * controller_.step().translation_m);
   ui_.turnStep->setValue(controller_.step().rotation_rad / kDegree_rad);
   for (QDoubleSpinBox* box : {ui_.moveStep, ui_.turnStep})
     connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &NudgeBox::takeStep);
-  connect(ui_.useAsSeed, &QPushButton::clicked, this, [this] {
-    controller_.finishGesture();
-    if (state_.nudgedPose()) Q_EMIT useAsSeedRequested(*state_.nudgedPose());
-  });
+  connect(ui_.useAsSeed, &QPushButton::clicked, &controller_, &NudgeController::useAsSeed);
   connect(ui_.backToEstimate, &QPushButton::clicked, &controller_,
           &NudgeController::backToEstimate);
   connect(ui_.dropNudged, &QPushButton::clicked, &controller_, &NudgeController::drop);
 }
 
 void NudgeBox::takeStep() {
-  controller_.setStep({ui_.moveStep->value() / kMillimetres, ui_.turnStep->value() * kDegree_rad});
+  controller_.setStep(
+      {ui_.moveStep->value() / kMillimetresPerMetre, ui_.turnStep->value() * kDegree_rad});
   for (int axis = 0; axis < 6; ++axis)
     values_[static_cast<std::size_t>(axis)]->setSingleStep(axis < 3 ? ui_.turnStep->value()
                                                                     : ui_.moveStep->value());
@@ -289,12 +258,10 @@ bool NudgeBox::eventFilter(QObject* watched, QEvent* event) {
   const QEvent::Type type = event->type();
   if (watched == ui_.nudgePad) {
     if (type == QEvent::FocusIn || type == QEvent::FocusOut)
-      QMetaObject::invokeMethod(
-          this, [this] { showOffset(); }, Qt::QueuedConnection);
+      QMetaObject::invokeMethod(this, &NudgeBox::showOffset, Qt::QueuedConnection);
   } else if (type == QEvent::MouseButtonRelease || type == QEvent::FocusOut) {
     // After the box itself: its last step still belongs to the gesture.
-    QMetaObject::invokeMethod(
-        this, [this] { controller_.finishGesture(); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(&controller_, &NudgeController::finishGesture, Qt::QueuedConnection);
   }
   return QWidget::eventFilter(watched, event);
 }

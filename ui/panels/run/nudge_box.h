@@ -14,8 +14,6 @@
 #include "core/geometry/pose.h"
 #include "ui/state/view_state.h"
 
-class QKeyEvent;
-
 namespace boresight::ui {
 
 /// The frame whose axes nudges refer to.
@@ -39,6 +37,12 @@ Pose nudged(const Pose& camera_from_station, const Vector6d& offset, const Nudge
 Vector6d nudgeBetween(const Pose& camera_from_station_base, const Pose& camera_from_station,
                       const NudgeFrame& frame);
 
+/// The direction in which a key moves, along the camera's x (right), y (down) and z (away); zero
+/// for keys that do not nudge.
+Eigen::Vector3d directionOf(int key);
+/// The rotation of such a key with Ctrl: the near side of the station goes where the arrow points.
+Eigen::Vector3d turnOf(const Eigen::Vector3d& direction);
+
 /// Sizes of one step.
 struct NudgeStep {
   double translation_m = 1e-3;
@@ -57,10 +61,10 @@ class NudgeController : public QObject {
  public:
   static constexpr double kCoarse = 10.0;
   static constexpr double kFine = 0.1;
-  static constexpr int kPause_ms = 600;  ///< a gesture without an explicit end is over after this
-                                         ///< time
+  /// A gesture without an explicit end is over after this time.
+  static constexpr int kPause_ms = 600;
 
-  explicit NudgeController(ViewState& state, QObject* parent = nullptr);
+  explicit NudgeController(ViewState& state);
 
   const NudgeFrame& frame() const { return frame_; }
   void setAxes(NudgeAxes axes);
@@ -68,31 +72,27 @@ class NudgeController : public QObject {
   const NudgeStep& step() const { return step_; }
   void setStep(const NudgeStep& step) { step_ = step; }
 
-  /// The pose from which offsets are measured: the start of nudging.
-  Pose base() const;
-  /// From the base to the nudged pose (rotation rad, translation m); zero while nothing is nudged.
+  /// From the pose at which nudging began to the nudged pose (rotation rad, translation m); zero
+  /// while nothing is nudged.
   Vector6d offset() const;
 
-  /// Moves by steps (of rotation, then translation) from the current pose.
-  void nudgeBy(const Vector6d& steps);
-  /// Moves to this offset from the base.
-  void setOffset(const Vector6d& offset);
-  /// Sets one value of the offset; the others stay.
+  /// Sets one value of the offset from the base; the others stay.
   void setOffset(int axis, double value);
   /// Part of the gesture under way.
-  void moveTo(const Pose& camera_from_station) { move(camera_from_station); }
+  void moveTo(const Pose& camera_from_station);
   /// Sets a pasted pose, as a whole gesture.
   void setPose(const Pose& camera_from_station);
   /// Returns to the pose that was nudged, as a whole gesture.
   void backToEstimate();
   /// Removes the nudged pose, as a whole gesture.
   void drop();
+  /// Requests the nudged pose, if any, as the seed.
+  void useAsSeed();
 
-  /// Whether the key nudges; the event filter consumes such keys.
-  bool takes(const QKeyEvent& event) const;
   /// Ends the gesture under way, if any.
   void finishGesture();
 
+  /// Consumes the keys that nudge.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:
@@ -100,10 +100,11 @@ class NudgeController : public QObject {
   void changed();
   /// A gesture has ended: from the first key press or value to the release.
   void gestureFinished(const boresight::Pose& before, const boresight::Pose& after);
+  void useAsSeedRequested(const boresight::Pose& camera_from_station);
 
  private:
   Pose estimate() const;
-  void move(const Pose& camera_from_station);
+  Pose base() const { return base_.value_or(estimate()); }
   void caseChanged();
   void stateChanged();
 
@@ -121,16 +122,12 @@ class NudgeBox : public QWidget {
   Q_OBJECT
 
  public:
-  NudgeBox(NudgeController& controller, ViewState& state, QWidget* parent = nullptr);
-
- Q_SIGNALS:
-  void useAsSeedRequested(const boresight::Pose& camera_from_station);
+  NudgeBox(NudgeController& controller, ViewState& state);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void connectValues();
   void connectSettings();
   void takeStep();
   void showOffset();

@@ -33,30 +33,8 @@ double angleOf(const QPointF& from, const QPointF& to) {
   return std::atan2(to.y() - from.y(), to.x() - from.x());
 }
 
-double length(const QPointF& way) { return std::hypot(way.x(), way.y()); }
-
 /// From the ring's middle to the handle of the distance; the one of tilts lies opposite.
 QPointF handleOffset() { return {0.0, -(NudgeGizmo::kRing + NudgeGizmo::kHandle)}; }
-
-/// The way of a key along the camera's x (right), y (down) and z (away); zero of other keys.
-Eigen::Vector3d wayOf(int key) {
-  switch (key) {
-    case Qt::Key_Left:
-      return -Eigen::Vector3d::UnitX();
-    case Qt::Key_Right:
-      return Eigen::Vector3d::UnitX();
-    case Qt::Key_Up:
-      return -Eigen::Vector3d::UnitY();
-    case Qt::Key_Down:
-      return Eigen::Vector3d::UnitY();
-    case Qt::Key_PageUp:
-      return Eigen::Vector3d::UnitZ();
-    case Qt::Key_PageDown:
-      return -Eigen::Vector3d::UnitZ();
-    default:
-      return Eigen::Vector3d::Zero();
-  }
-}
 
 /// "+1.20"; "0.00" without a sign.
 QString signedText(double value) {
@@ -78,7 +56,7 @@ NudgeGizmo::NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state
   action_->setToolTip(tr("Move and turn the seed on the image (N)"));
   connect(action_, &QAction::toggled, this, &NudgeGizmo::setActive);
   view_.installEventFilter(this);
-  view_.setOverlay(this, [this](QPainter& painter) { paint(painter); });
+  view_.addOverlay(this, [this](QPainter& painter) { paint(painter); });
   connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
     if (owner != this) setActive(false);
   });
@@ -91,12 +69,10 @@ NudgeGizmo::NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state
 void NudgeGizmo::setActive(bool active) {
   if (active == active_) return;
   active_ = active;
-  if (active) {
+  if (active)
     view_.claimTool(this);
-    view_.setFocus();  // for the keys
-  } else {
+  else
     nudge_.finishGesture();
-  }
   dragged_ = Part::kNone;
   view_.setToolActive(active);
   action_->setChecked(active);
@@ -119,9 +95,9 @@ std::optional<QPointF> NudgeGizmo::centre() const {
 NudgeGizmo::Part NudgeGizmo::partAt(const QPointF& place) const {
   const auto middle = centre();
   if (!middle) return Part::kNone;
-  if (length(place - (*middle + handleOffset())) <= kReach + 4.0) return Part::kDistance;
-  if (length(place - (*middle - handleOffset())) <= kReach + 4.0) return Part::kTilt;
-  const double away = length(place - *middle);
+  if (distance_px(place, *middle + handleOffset()) <= kReach + 4.0) return Part::kDistance;
+  if (distance_px(place, *middle - handleOffset()) <= kReach + 4.0) return Part::kTilt;
+  const double away = distance_px(place, *middle);
   if (std::abs(away - kRing) <= kReach) return Part::kRing;
   return away < kRing ? Part::kInside : Part::kNone;
 }
@@ -149,13 +125,13 @@ void NudgeGizmo::dragTo(const QPointF& pixel) {
       movePixels((place - before) / view_.transform().scale());
       break;
     case Part::kRing:
-      turn(0.0, 0.0,
-           std::remainder(angleOf(*middle, place) - angleOf(*middle, before),
-                          2.0 * std::acos(-1.0)));
+      displace({0.0, 0.0,
+                std::remainder(angleOf(*middle, place) - angleOf(*middle, before),
+                               2.0 * std::acos(-1.0))});
       break;
     case Part::kTilt: {  // the near side of a ball as large as the ring follows the pointer
       const QPointF angles = (place - before) / kRing;
-      turn(angles.y(), -angles.x(), 0.0);
+      displace({angles.y(), -angles.x(), 0.0});
       break;
     }
     case Part::kDistance:
@@ -169,62 +145,45 @@ void NudgeGizmo::release() {
   dragged_ = Part::kNone;
 }
 
-/// In the plane through the station's middle: what is dragged stays under the pointer.
+/// Moves in the plane through the station's middle, which stays under the pointer.
 void NudgeGizmo::movePixels(const QPointF& by_px) {
-  const auto& loaded_case = state_.currentCase();
-  if (!loaded_case) return;
-  const Camera& camera = loaded_case->source.camera;
+  const Camera& camera = state_.currentCase()->source.camera;
   const double depth_m = (pose() * nudge_.frame().centre_in_station_m).z();
-  Vector6d move = Vector6d::Zero();
-  move[3] = by_px.x() * depth_m / camera.fx;
-  move[4] = by_px.y() * depth_m / camera.fy;
-  apply(move);
+  displace(Eigen::Vector3d::Zero(),
+           {by_px.x() * depth_m / camera.fx, by_px.y() * depth_m / camera.fy, 0.0});
 }
 
 /// Along the ray to the station's middle, whose place in the image stays.
 void NudgeGizmo::scaleDistance(double factor) {
-  Vector6d move = Vector6d::Zero();
-  move.tail<3>() = (factor - 1.0) * (pose() * nudge_.frame().centre_in_station_m);
-  apply(move);
+  displace(Eigen::Vector3d::Zero(), (factor - 1.0) * (pose() * nudge_.frame().centre_in_station_m));
 }
 
-/// About the station's middle, along the camera's axes.
-void NudgeGizmo::turn(double x_rad, double y_rad, double z_rad) {
-  Vector6d displacement = Vector6d::Zero();
-  displacement.head<3>() = Eigen::Vector3d(x_rad, y_rad, z_rad);
-  apply(displacement);
-}
-
-void NudgeGizmo::apply(const Vector6d& displacement) {
-  NudgeFrame frame = nudge_.frame();
-  frame.axes = NudgeAxes::kCamera;
-  frame.pivot = NudgePivot::kStationCentre;
-  nudge_.moveTo(nudged(pose(), displacement, frame));
+/// Turns about the station's middle, then moves, along the camera's axes.
+void NudgeGizmo::displace(const Eigen::Vector3d& turn_rad, const Eigen::Vector3d& move_m) {
+  Vector6d displacement;
+  displacement << turn_rad, move_m;
+  nudge_.moveTo(
+      nudged(pose(), displacement, {.centre_in_station_m = nudge_.frame().centre_in_station_m}));
 }
 
 bool NudgeGizmo::pressKey(const QKeyEvent& event) {
   const double factor = (event.modifiers() & Qt::ShiftModifier) != 0 ? NudgeController::kCoarse
                         : (event.modifiers() & Qt::AltModifier) != 0 ? NudgeController::kFine
                                                                      : 1.0;
-  const Eigen::Vector3d way = factor * wayOf(event.key());
-  if (!way.isZero() && (event.modifiers() & Qt::ControlModifier) != 0) {
-    const double step_rad = nudge_.step().rotation_rad;
-    turn(step_rad * way.y(), -step_rad * way.x(), step_rad * way.z());
-    return true;
-  }
-  if (way.z() != 0.0) {
-    scaleDistance(std::pow(kWheelFactor, way.z()));
-    return true;
-  }
+  const Eigen::Vector3d way = factor * directionOf(event.key());
   if (!way.isZero()) {
-    movePixels({way.x(), way.y()});
+    if ((event.modifiers() & Qt::ControlModifier) != 0)
+      displace(nudge_.step().rotation_rad * turnOf(way));
+    else if (way.z() != 0.0)
+      scaleDistance(std::pow(kWheelFactor, way.z()));
+    else
+      movePixels({way.x(), way.y()});
     return true;
   }
   switch (event.key()) {
     case Qt::Key_Return:
     case Qt::Key_Enter:
-      nudge_.finishGesture();
-      if (state_.nudgedPose()) Q_EMIT useAsSeedRequested(*state_.nudgedPose());
+      nudge_.useAsSeed();
       setActive(false);
       return true;
     case Qt::Key_Escape:
@@ -246,7 +205,7 @@ bool NudgeGizmo::eventFilter(QObject* watched, QEvent* event) {
     }
     case QEvent::ShortcutOverride: {
       const int key = static_cast<QKeyEvent*>(event)->key();
-      const bool own = !wayOf(key).isZero() || key == Qt::Key_Escape || key == Qt::Key_Return;
+      const bool own = !directionOf(key).isZero() || key == Qt::Key_Escape || key == Qt::Key_Return;
       if (own) event->accept();
       return own;
     }

@@ -32,7 +32,7 @@ class NudgeGizmo : public QObject {
   static constexpr double kRing = 96.0;    ///< of the ring, on the screen
   static constexpr double kHandle = 40.0;  ///< from the ring to each handle
 
-  NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state, QObject* parent = nullptr);
+  NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state, QObject* parent);
 
   bool isActive() const { return active_; }
   void setActive(bool active);
@@ -42,9 +42,6 @@ class NudgeGizmo : public QObject {
   QString offsetText() const;
 
   bool eventFilter(QObject* watched, QEvent* event) override;
-
- Q_SIGNALS:
-  void useAsSeedRequested(const boresight::Pose& camera_from_station);
 
  private:
   enum class Part { kNone, kInside, kRing, kDistance, kTilt };
@@ -59,9 +56,9 @@ class NudgeGizmo : public QObject {
   void release();
   void movePixels(const QPointF& by_px);
   void scaleDistance(double factor);
-  void turn(double x_rad, double y_rad, double z_rad);
+  void displace(const Eigen::Vector3d& turn_rad,
+                const Eigen::Vector3d& move_m = Eigen::Vector3d::Zero());
   bool pressKey(const QKeyEvent& event);
-  void apply(const Vector6d& displacement);
   void paint(QPainter& painter) const;
 
   ImageView& view_;

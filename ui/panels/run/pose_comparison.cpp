@@ -5,21 +5,24 @@
 
 #include "core/base/math.h"
 #include "ui/models/text.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr double kDegree_mrad = 1e3 * kDegree_rad;
 
-std::optional<double> limitOf(const std::optional<sessions::Requirement>& requirement,
-                              std::optional<double> sessions::Requirement::*member) {
-  return requirement ? (*requirement).*member : std::nullopt;
-}
+/// The limits in the units of the rows; none without a requirement.
+struct RowLimits {
+  std::optional<double> normal_mm, lateral_mm, rotation_mrad;
 
-std::optional<double> rotationLimit_mrad(const std::optional<sessions::Requirement>& requirement) {
-  const auto limit_deg = limitOf(requirement, &sessions::Requirement::rotation_deg);
-  return limit_deg ? std::optional(*limit_deg * kDegree_mrad) : std::nullopt;
-}
+  explicit RowLimits(const std::optional<sessions::Requirement>& requirement) {
+    if (!requirement) return;
+    normal_mm = requirement->normal_mm;
+    lateral_mm = requirement->lateral_mm;
+    if (requirement->rotation_deg) rotation_mrad = *requirement->rotation_deg * kDegree_mrad;
+  }
+};
 
 QString poseText(const char* text) { return PoseComparison::tr(text); }
 
@@ -32,6 +35,11 @@ QString poseRoleName(PoseRole role) {
   return PoseComparison::tr(kNames[static_cast<std::size_t>(role)]);
 }
 
+void offerRoles(QComboBox& box, PoseRole chosen) {
+  for (int i = 0; i < kPoseRoles; ++i) box.addItem(poseRoleName(static_cast<PoseRole>(i)));
+  box.setCurrentIndex(static_cast<int>(chosen));
+}
+
 QStringList axesRow(const QString& name, const Eigen::Vector3d& values, const QString& unit) {
   return {name, QStringLiteral("%1, %2, %3 %4")
                     .arg(QString::number(values.x(), 'f', 4), QString::number(values.y(), 'f', 4),
@@ -40,12 +48,11 @@ QStringList axesRow(const QString& name, const Eigen::Vector3d& values, const QS
 
 QVector<QStringList> sigmaRows(const sessions::PoseSigma& sigma,
                                const std::optional<sessions::Requirement>& requirement) {
-  return {judgedRow(poseText("normal"), sigma.normal_mm, poseText("mm"),
-                    limitOf(requirement, &sessions::Requirement::normal_mm)),
-          judgedRow(poseText("lateral"), sigma.lateral_mm, poseText("mm"),
-                    limitOf(requirement, &sessions::Requirement::lateral_mm)),
+  const RowLimits limits(requirement);
+  return {judgedRow(poseText("normal"), sigma.normal_mm, poseText("mm"), limits.normal_mm),
+          judgedRow(poseText("lateral"), sigma.lateral_mm, poseText("mm"), limits.lateral_mm),
           judgedRow(poseText("rotation"), sigma.out_of_plane_mrad, poseText("mrad"),
-                    rotationLimit_mrad(requirement)),
+                    limits.rotation_mrad),
           axesRow(poseText("along x, y, z"), sigma.translation_mm, poseText("mm")),
           axesRow(poseText("about x, y, z"), sigma.rotation_mrad, poseText("mrad"))};
 }
@@ -63,14 +70,10 @@ std::optional<Matrix6d> shownCovariance(const ViewState& state) {
 
 PoseComparison::PoseComparison(QWidget* parent) : QWidget(parent) {
   ui_.setupUi(this);
-  const auto offer_roles = [this](QComboBox* box, PoseRole role) {
-    for (int i = 0; i < kPoseRoles; ++i) box->addItem(poseRoleName(static_cast<PoseRole>(i)));
-    box->setCurrentIndex(static_cast<int>(role));
-    connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-            &PoseComparison::showDifference);
-  };
-  offer_roles(ui_.differenceOf, PoseRole::kEstimate);
-  offer_roles(ui_.differenceFrom, PoseRole::kTruth);
+  offerRoles(*ui_.differenceOf, PoseRole::kEstimate);
+  offerRoles(*ui_.differenceFrom, PoseRole::kTruth);
+  for (QComboBox* box : {ui_.differenceOf, ui_.differenceFrom})
+    connect(box, kIndexChanged, this, &PoseComparison::showDifference);
   setJudgement({});
 }
 
@@ -98,11 +101,8 @@ void PoseComparison::showSigma() {
   const auto sigma = covariance_
                          ? sessions::poseSigma(*covariance_, judgement_.camera_from_end_effector)
                          : std::nullopt;
-  if (!sigma) {
-    ui_.sigma->setText(tr("No covariance: no pose has been solved here."));
-    return;
-  }
-  ui_.sigma->setText(htmlTable(sigmaRows(*sigma, judgement_.requirement)));
+  ui_.sigma->setText(sigma ? htmlTable(sigmaRows(*sigma, judgement_.requirement))
+                           : tr("No covariance: no pose has been solved here."));
 }
 
 void PoseComparison::showDifference() {
@@ -116,14 +116,13 @@ void PoseComparison::showDifference() {
   const sessions::PoseError error = sessions::poseError(
       *poses_[static_cast<std::size_t>(from_role)], *poses_[static_cast<std::size_t>(to_role)],
       judgement_.camera_from_end_effector);
-  const auto normal_limit = limitOf(judgement_.requirement, &sessions::Requirement::normal_mm);
-  const auto lateral_limit = limitOf(judgement_.requirement, &sessions::Requirement::lateral_mm);
-  QVector<QStringList> rows = {judgedRow(tr("normal"), error.normal_mm, tr("mm"), normal_limit),
-                               judgedRow(tr("lateral"), error.lateral_mm, tr("mm"), lateral_limit),
-                               judgedRow(tr("rotation"), error.rotation_mrad, tr("mrad"),
-                                         rotationLimit_mrad(judgement_.requirement)),
-                               judgedRow(tr("twist"), error.in_plane_mrad, tr("mrad")),
-                               judgedRow(tr("whole angle"), error.geodesic_mrad, tr("mrad"))};
+  const RowLimits limits(judgement_.requirement);
+  QVector<QStringList> rows = {
+      judgedRow(tr("normal"), error.normal_mm, tr("mm"), limits.normal_mm),
+      judgedRow(tr("lateral"), error.lateral_mm, tr("mm"), limits.lateral_mm),
+      judgedRow(tr("rotation"), error.rotation_mrad, tr("mrad"), limits.rotation_mrad),
+      judgedRow(tr("twist"), error.in_plane_mrad, tr("mrad")),
+      judgedRow(tr("whole angle"), error.geodesic_mrad, tr("mrad"))};
   const bool of_truth = from_role == PoseRole::kTruth || to_role == PoseRole::kTruth;
   const auto sigma =
       of_truth && judgement_.truth_covariance
@@ -131,9 +130,9 @@ void PoseComparison::showDifference() {
           : std::nullopt;
   if (sigma)
     rows << judgedRow(tr("one sigma of the truth, normal"), sigma->normal_mm, tr("mm"),
-                      normal_limit)
+                      limits.normal_mm)
          << judgedRow(tr("one sigma of the truth, lateral"), sigma->lateral_mm, tr("mm"),
-                      lateral_limit);
+                      limits.lateral_mm);
   ui_.difference->setText(htmlTable(rows));
 }
 

@@ -20,6 +20,8 @@ using Poses = std::array<std::optional<Pose>, kPoseRoles>;  ///< by role
 
 /// "seed", "current", "nudged", "truth", "annotated".
 QString poseRoleName(PoseRole role);
+/// Lists the roles in a box.
+void offerRoles(QComboBox& box, PoseRole chosen);
 
 /// Data by which poses are judged.
 struct PoseJudgement {

@@ -18,44 +18,33 @@ PastePoseDialog::PastePoseDialog(const QString& text, QWidget* parent) : QDialog
   ui_.text->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   ui_.verdict->setMinimumHeight(3 * ui_.verdict->fontMetrics().lineSpacing());
   take_ = ui_.buttons->addButton(tr("Nudge to this pose"), QDialogButtonBox::AcceptRole);
-  connect(ui_.buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   for (QComboBox* box : {ui_.direction, ui_.matrixOrder, ui_.quaternionOrder, ui_.unit})
-    connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-            &PastePoseDialog::parse);
-  connect(ui_.text, &QPlainTextEdit::textChanged, this, [this] {
-    guess();
-    parse();
-  });
+    connect(box, kIndexChanged, this, &PastePoseDialog::parse);
+  connect(ui_.text, &QPlainTextEdit::textChanged, this, &PastePoseDialog::guess);
   guess();
-  parse();
   resize(560, 420);
 }
 
 void PastePoseDialog::guess() {
   const sessions::PoseReading guess = sessions::guessReading(ui_.text->toPlainText().toStdString());
-  const auto choose = [](QComboBox* box, auto value) {
+  const auto choose = [](QComboBox* box, bool second) {
     const QSignalBlocker blocker(box);
-    box->setCurrentIndex(static_cast<int>(value));
+    box->setCurrentIndex(second ? 1 : 0);
   };
-  choose(ui_.direction, guess.direction);
-  choose(ui_.matrixOrder, guess.matrix_order);
-  choose(ui_.quaternionOrder, guess.quaternion_order);
-  choose(ui_.unit, guess.unit);
-}
-
-sessions::PoseReading PastePoseDialog::reading() const {
-  sessions::PoseReading reading;
-  reading.direction = static_cast<sessions::PoseDirection>(ui_.direction->currentIndex());
-  reading.matrix_order = static_cast<sessions::MatrixOrder>(ui_.matrixOrder->currentIndex());
-  reading.quaternion_order =
-      static_cast<sessions::QuaternionOrder>(ui_.quaternionOrder->currentIndex());
-  reading.unit = static_cast<sessions::LengthUnit>(ui_.unit->currentIndex());
-  return reading;
+  choose(ui_.direction, guess.station_from_camera);
+  choose(ui_.matrixOrder, guess.column_major);
+  choose(ui_.quaternionOrder, guess.xyzw);
+  choose(ui_.unit, guess.millimetres);
+  parse();
 }
 
 void PastePoseDialog::parse() {
-  parsed_ = sessions::parsePose(ui_.text->toPlainText().toStdString(), reading());
+  const auto second = [](const QComboBox* box) { return box->currentIndex() == 1; };
+  parsed_ = sessions::parsePose(ui_.text->toPlainText().toStdString(),
+                                {.station_from_camera = second(ui_.direction),
+                                 .column_major = second(ui_.matrixOrder),
+                                 .xyzw = second(ui_.quaternionOrder),
+                                 .millimetres = second(ui_.unit)});
   ui_.matrixOrder->setEnabled(parsed_.form == PoseForm::kMatrix);
   ui_.quaternionOrder->setEnabled(parsed_.form == PoseForm::kQuaternion);
   take_->setEnabled(parsed_.valid);
@@ -113,22 +102,15 @@ constexpr const char* kRotationHelp = QT_TR_NOOP(
 constexpr const char* kQuaternionHelp =
     QT_TR_NOOP("Unit quaternion of camera_from_station, in the order w x y z, with w >= 0");
 
-struct Figure {
-  const char* name;
-  const char* help;
-};
-constexpr std::array<Figure, 10> kFigures = {{
-    {QT_TR_NOOP("x, mm"), kTranslationHelp},
-    {QT_TR_NOOP("y, mm"), kTranslationHelp},
-    {QT_TR_NOOP("z, mm"), kTranslationHelp},
-    {QT_TR_NOOP("turn x, deg"), kRotationHelp},
-    {QT_TR_NOOP("turn y, deg"), kRotationHelp},
-    {QT_TR_NOOP("turn z, deg"), kRotationHelp},
-    {QT_TR_NOOP("quat. w"), kQuaternionHelp},
-    {QT_TR_NOOP("quat. x"), kQuaternionHelp},
-    {QT_TR_NOOP("quat. y"), kQuaternionHelp},
-    {QT_TR_NOOP("quat. z"), kQuaternionHelp},
-}};
+constexpr const char* kFigures[] = {QT_TR_NOOP("x, mm"),       QT_TR_NOOP("y, mm"),
+                                    QT_TR_NOOP("z, mm"),       QT_TR_NOOP("turn x, deg"),
+                                    QT_TR_NOOP("turn y, deg"), QT_TR_NOOP("turn z, deg"),
+                                    QT_TR_NOOP("quat. w"),     QT_TR_NOOP("quat. x"),
+                                    QT_TR_NOOP("quat. y"),     QT_TR_NOOP("quat. z")};
+
+const char* helpOfFigure(int row) {
+  return row < 3 ? kTranslationHelp : row < 6 ? kRotationHelp : kQuaternionHelp;
+}
 
 /// The figures of a pose, in the order of `kFigures`; zeros have no sign.
 QStringList figuresOf(const Pose& pose) {
@@ -149,13 +131,10 @@ constexpr int kFrame_px = 22;  // of the table, and room for a scroll bar
 
 }  // namespace
 
-PosePanel::PosePanel(ViewState& state, QWidget* parent)
-    : QWidget(parent), state_(state), controller_(state) {
+PosePanel::PosePanel(ViewState& state) : state_(state), controller_(state) {
   ui_.setupUi(this);
   buildTable();
-  auto* box = new NudgeBox(controller_, state_, ui_.nudging);
-  ui_.nudgingColumn->addWidget(box);
-  connect(box, &NudgeBox::useAsSeedRequested, this, &PosePanel::useAsSeedRequested);
+  ui_.nudgingColumn->addWidget(new NudgeBox(controller_, state_));
   connectAll();
   refresh();
 }
@@ -164,31 +143,26 @@ PosePanel::PosePanel(ViewState& state, QWidget* parent)
 PosePanel::~PosePanel() { delete ui_.scroll; }
 
 void PosePanel::buildTable() {
-  const QFont fixed = QFontDatabase::systemFont(QFontDatabase::FixedFont);
-  ui_.matrix->setFont(fixed);
-  ui_.namedPoses->setFont(fixed);
-  ui_.poses->setFont(fixed);
+  for (QWidget* each : std::initializer_list<QWidget*>{ui_.matrix, ui_.namedPoses, ui_.poses})
+    each->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   styleTable(*ui_.poses);
   QStringList titles = {QString()};
   for (int i = 0; i < kPoseRoles; ++i) titles << poseRoleName(static_cast<PoseRole>(i));
   ui_.poses->setColumnCount(static_cast<int>(titles.size()));
   ui_.poses->setHorizontalHeaderLabels(titles);
-  for (const Figure& figure : kFigures) {
+  for (const char* figure : kFigures) {
     const int row = ui_.poses->rowCount();
-    addRow(*ui_.poses, {tr(figure.name), {}, {}, {}, {}, {}});
+    addRow(*ui_.poses, {tr(figure), {}, {}, {}, {}, {}});
     for (int column = 0; column < titles.size(); ++column)
-      ui_.poses->item(row, column)->setToolTip(tr(figure.help));
+      ui_.poses->item(row, column)->setToolTip(tr(helpOfFigure(row)));
   }
   ui_.poses->setFixedHeight(
       ui_.poses->verticalHeader()->defaultSectionSize() * (ui_.poses->rowCount() + 1) + kFrame_px);
 }
 
 void PosePanel::connectAll() {
-  for (int i = 0; i < kPoseRoles; ++i)
-    ui_.copiedRole->addItem(poseRoleName(static_cast<PoseRole>(i)));
-  ui_.copiedRole->setCurrentIndex(static_cast<int>(PoseRole::kEstimate));
-  connect(ui_.copiedRole, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-          &PosePanel::showMatrix);
+  offerRoles(*ui_.copiedRole, PoseRole::kEstimate);
+  connect(ui_.copiedRole, kIndexChanged, this, &PosePanel::showMatrix);
   for (const FormText& form : kForms)
     connect(findChild<QPushButton*>(QLatin1String(form.object)), &QPushButton::clicked, this,
             [this, form] {
@@ -196,7 +170,6 @@ void PosePanel::connectAll() {
             });
   connect(ui_.pastePose, &QPushButton::clicked, this, &PosePanel::pastePose);
   connect(ui_.poses, &QWidget::customContextMenuRequested, this, &PosePanel::showMenu);
-  connect(&controller_, &NudgeController::gestureFinished, this, &PosePanel::gestureFinished);
   state_.onChange(ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor |
                       ViewChange::kNudgedPose | ViewChange::kAnnotatedPose,
                   this, &PosePanel::refresh);
@@ -209,34 +182,25 @@ void PosePanel::showMatrix() {
                           ? matrixRows(*shown) +
                                 QStringLiteral("\n          0          0          0             1")
                           : tr("There is no pose \"%1\".").arg(poseRoleName(role)));
-  showNamedPoses(role);
-}
-
-void PosePanel::showNamedPoses(PoseRole role) {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   QStringList texts;
-  if (loaded_case && pose(role))
-    for (const sessions::NamedPose& named : sessions::namedPoses(loaded_case->source, *pose(role)))
+  if (loaded_case && shown)
+    for (const sessions::NamedPose& named : sessions::namedPoses(loaded_case->source, *shown))
       texts << fromText(sessions::namedPoseTitle(named)) + QLatin1Char('\n') +
                    matrixRows(named.reference_from_station);
   ui_.namedPoses->setText(texts.join(QStringLiteral("\n\n")));
   ui_.namedPoses->setVisible(!texts.isEmpty());
 }
 
-void PosePanel::addCopyActions(QMenu& menu, PoseRole role) {
-  for (const FormText& form : kForms) {
-    QAction* action =
-        menu.addAction(tr("Copy %1 as %2").arg(poseRoleName(role), tr(form.name).toLower()), this,
-                       [this, role, form] { copyPose(role, form.form); });
-    action->setEnabled(pose(role).has_value());
-  }
-}
-
 void PosePanel::showMenu(const QPoint& at) {
   QMenu menu(this);
   const QModelIndex cell = ui_.poses->indexAt(at);
   if (cell.isValid() && cell.column() > 0) {
-    addCopyActions(menu, static_cast<PoseRole>(cell.column() - 1));
+    const auto role = static_cast<PoseRole>(cell.column() - 1);
+    for (const FormText& form : kForms)
+      menu.addAction(tr("Copy %1 as %2").arg(poseRoleName(role), tr(form.name).toLower()), this,
+                     [this, role, form] { copyPose(role, form.form); })
+          ->setEnabled(pose(role).has_value());
     menu.addAction(tr("Copy this value"), this,
                    [cell] { QGuiApplication::clipboard()->setText(cell.data().toString()); });
     menu.addSeparator();

@@ -13,7 +13,6 @@
 #include "ui/panels/run/nudge_box.h"
 #include "ui/panels/run/pose_comparison.h"
 
-class QMenu;
 class QPushButton;
 
 namespace boresight::ui {
@@ -29,9 +28,9 @@ class PastePoseDialog : public QDialog {
   const sessions::ParsedPose& parsed() const { return parsed_; }
 
  private:
+  /// Chooses the reading that the text indicates, then parses.
   void guess();
   void parse();
-  sessions::PoseReading reading() const;
 
   QPushButton* take_ = nullptr;
   sessions::ParsedPose parsed_;
@@ -44,11 +43,12 @@ class PosePanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit PosePanel(ViewState& state, QWidget* parent = nullptr);
+  explicit PosePanel(ViewState& state);
   ~PosePanel() override;
 
   void setJudgement(const PoseJudgement& judgement);
-  /// For other widgets that take the nudging keys: install it on them as an event filter.
+  /// Reports each gesture (a key held down, a drag, a pasted pose, a pose dropped) as one edit. On
+  /// other widgets that take the nudging keys it is to be installed as an event filter.
   NudgeController& nudgeController() { return controller_; }
 
   /// Copies a pose to the clipboard, if it exists.
@@ -56,22 +56,15 @@ class PosePanel : public QWidget {
   /// Asks how to read the clipboard's text and nudges to that pose.
   void pastePose();
 
- Q_SIGNALS:
-  /// One edit for the document: a key held down, a drag, a pasted pose, a pose dropped.
-  void gestureFinished(const boresight::Pose& before, const boresight::Pose& after);
-  void useAsSeedRequested(const boresight::Pose& camera_from_station);
-
  private:
   const std::optional<Pose>& pose(PoseRole role) const {
     return poses_[static_cast<std::size_t>(role)];
   }
   void buildTable();
   void connectAll();
-  void addCopyActions(QMenu& menu, PoseRole role);
   void showMenu(const QPoint& at);
   void refresh();
   void showMatrix();
-  void showNamedPoses(PoseRole role);
 
   ViewState& state_;
   NudgeController controller_;

@@ -7,11 +7,10 @@
 #include <QStringList>
 #include <QWidget>
 
+#include "ui_runs_panel.h"
+
 #include "sessions/review/run_difference.h"
 #include "ui/run/task_runner.h"
-
-class QTreeWidget;
-class QTreeWidgetItem;
 
 namespace boresight::ui {
 
@@ -25,7 +24,7 @@ class RunsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  RunsPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
+  RunsPanel(Document& document, ViewState& state);
 
   /// Whether the runs are still being compared.
   bool isBusy() const { return reader_.isBusy(); }
@@ -47,11 +46,11 @@ class RunsPanel : public QWidget {
 
   Document& document_;
   ViewState& state_;
-  QTreeWidget* list_;
   QStringList pinned_;                        ///< digests
   std::vector<sessions::RunRecord> read_;     ///< runs of the lines, in the order of the session
   std::vector<sessions::RunListLine> lines_;  ///< of `read_`; empty until they are read
   TaskRunner reader_;                         ///< only the newest list is used
+  Ui::RunsPanel ui_;
 };
 
 }  // namespace boresight::ui

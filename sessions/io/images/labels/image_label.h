@@ -66,11 +66,8 @@ struct ImageLabel {
 bool hasImageLabel(const std::filesystem::path& file);
 
 /// Reads the label of a VICAR, PDS3 or PDS4 image (of PDS3 and PDS4 also a label next to the pixel
-/// file). InputError when it is none, or is damaged; a camera model that is missing or unfit is
-/// not an error here.
+/// file). InputError when there is no label, or it is damaged; a camera model that is missing or
+/// does not fit is not an error here.
 ImageLabel readImageLabel(const std::filesystem::path& file);
-
-/// The camera of the image's label; InputError with `camera_remark` when it has none that fits.
-CameraFile readLabelCamera(const std::filesystem::path& file);
 
 }  // namespace boresight::sessions

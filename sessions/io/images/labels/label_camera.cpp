@@ -40,10 +40,13 @@ char letterOf(const std::string& text) {
   return '\0';
 }
 
-/// The components of a model by letter.
+struct Statement {
+  std::vector<double> numbers;
+  std::string unit;  ///< upper case; "" where none is stated
+};
+
 struct Components {
-  std::map<char, std::vector<double>> numbers;
-  std::map<char, std::string> units;  ///< upper case; "" where none is stated
+  std::map<char, Statement> entries;  ///< by letter
   std::string remark;                 ///< one sentence where the components contradict each other
 };
 
@@ -67,15 +70,14 @@ Components groupComponents(const json& group) {
     }
     const char letter = by_letter != '\0' ? by_letter : by_name;
     if (letter == '\0') continue;
-    if (!components.numbers.emplace(letter, labelNumbers(value)).second) {
+    std::string unit = labelUnit(value);
+    if (unit.empty()) unit = upperCase(labelText(labelMember(&group, key + "__UNIT")).value_or(""));
+    if (unit.empty() && at < units.size()) unit = upperCase(units[at]);
+    if (!components.entries.emplace(letter, Statement{labelNumbers(value), unit}).second) {
       components.remark =
           "the label's camera model has the component " + std::string(1, letter) + " twice";
       return components;
     }
-    std::string unit = labelUnit(value);
-    if (unit.empty()) unit = upperCase(labelText(labelMember(&group, key + "__UNIT")).value_or(""));
-    if (unit.empty() && at < units.size()) unit = upperCase(units[at]);
-    components.units[letter] = unit;
   }
   return components;
 }
@@ -95,20 +97,15 @@ Components elementComponents(const json& model) {
       for (const char* name : names)
         if (const json* value = labelMember(element, name)) coordinates.push_back(*value);
     const json* values = coordinates.empty() ? element : &coordinates;
-    components.numbers[component.letter] = labelNumbers(values);
-    components.units[component.letter] = labelUnit(values);
+    components.entries[component.letter] = {labelNumbers(values), labelUnit(values)};
   }
   return components;
 }
 
-bool isOneOf(const std::string& text, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&text](const char* word) { return text == word; });
-}
-
 /// Metres for the centre and the pupil, pixels for H and V, nothing else.
 std::string unitRemark(const Components& components) {
-  for (const auto& [letter, unit] : components.units) {
+  for (const auto& [letter, statement] : components.entries) {
+    const std::string& unit = statement.unit;
     if (unit.empty()) continue;
     const bool length = letter == 'C' || letter == 'E';
     const bool picture = letter == 'H' || letter == 'V';
@@ -122,18 +119,12 @@ std::string unitRemark(const Components& components) {
   return "";
 }
 
-std::optional<CameraModel> modelOf(const std::string& type) {
-  for (const CameraModel model : {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
-    if (lowerCase(type) == cameraModelName(model)) return model;
-  return std::nullopt;
-}
-
 /// Sets the model of the components, or the remark why there is none.
 void setModel(CameraModel model, const Components& components, StatedCamera& stated) {
   stated.remark = components.remark.empty() ? unitRemark(components) : components.remark;
   const auto numbers = [&components](char letter) {
-    const auto found = components.numbers.find(letter);
-    return found == components.numbers.end() ? std::vector<double>() : found->second;
+    const auto found = components.entries.find(letter);
+    return found == components.entries.end() ? std::vector<double>() : found->second.numbers;
   };
   CahvModel cahv;
   cahv.model = model;
@@ -179,43 +170,16 @@ StatedCamera groupCamera(const json& group) {
   stated.frame = groupFrame(group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX",
                             stated.flags);
   const std::string type = labelText(labelMember(&group, "MODEL_TYPE")).value_or("NONE");
-  const auto model = modelOf(type);
-  if (!model) {
+  if (const auto model = cahvModelOf(type))
+    setModel(*model, groupComponents(group), stated);
+  else
     stated.remark = type == "NONE" ? kNone
                                    : "the label's camera model, '" + type +
                                          "', is not one of CAHV, CAHVOR and CAHVORE";
-    return stated;
-  }
-  setModel(*model, groupComponents(group), stated);
   return stated;
 }
 
-std::vector<StatedCamera> groupCameras(LabelFormat format, const json& label) {
-  std::vector<StatedCamera> cameras;
-  for (const auto& [name, group] : labelGroups(format, label))
-    if (isCameraGroup(name)) cameras.push_back(groupCamera(*group));
-  return cameras;
-}
-
-// PDS4: the classes of the geometry dictionary.
-
-/// The element of the model, of the type that is stated where one is.
-const json* modelElement(const json& parameters, CameraModel& model) {
-  constexpr std::pair<const char*, CameraModel> kModels[] = {
-      {"CAHVORE_Model", CameraModel::kCahvore},
-      {"CAHVOR_Model", CameraModel::kCahvor},
-      {"CAHV_Model", CameraModel::kCahv}};
-  const auto stated_type = labelText(labelMember(&parameters, "model_type"));
-  for (const auto& [name, one] : kModels) {
-    const json* element = labelMember(&parameters, name);
-    if (element == nullptr || element->is_array()) continue;
-    if (stated_type && modelOf(*stated_type) && *modelOf(*stated_type) != one) continue;
-    model = one;
-    return element;
-  }
-  return nullptr;
-}
-
+/// Of PDS4: the classes of the geometry dictionary.
 StatedCamera elementCamera(const json& parameters) {
   StatedCamera stated;
   for (const char* key : {"calibration_source_id", "model_desc", "solution_id"})
@@ -224,39 +188,42 @@ StatedCamera elementCamera(const json& parameters) {
   if (const json* space =
           labelPath(&parameters, {"Coordinate_Space_Reference", "Coordinate_Space_Indexed"}))
     stated.frame = indexedFrame(*space, stated.flags);
-  CameraModel model = CameraModel::kCahv;
-  const json* element = modelElement(parameters, model);
-  if (element == nullptr) {
-    const auto type = labelText(labelMember(&parameters, "model_type"));
-    stated.remark = type == "NONE"
-                        ? kNone
-                        : "the label's camera model" + (type ? ", '" + *type + "'," : "") +
-                              " is not one of CAHV, CAHVOR and CAHVORE";
+  constexpr std::pair<const char*, CameraModel> kModels[] = {
+      {"CAHVORE_Model", CameraModel::kCahvore},
+      {"CAHVOR_Model", CameraModel::kCahvor},
+      {"CAHV_Model", CameraModel::kCahv}};
+  const auto type = labelText(labelMember(&parameters, "model_type"));
+  const auto stated_model = cahvModelOf(type.value_or(""));
+  for (const auto& [name, model] : kModels) {
+    const json* element = labelMember(&parameters, name);
+    if (element == nullptr || element->is_array() || stated_model.value_or(model) != model)
+      continue;
+    setModel(model, elementComponents(*element), stated);
     return stated;
   }
-  setModel(model, elementComponents(*element), stated);
+  stated.remark = type == "NONE" ? kNone
+                                 : "the label's camera model" + (type ? ", '" + *type + "'," : "") +
+                                       " is not one of CAHV, CAHVOR and CAHVORE";
   return stated;
 }
 
 /// Of several models that agree the first; models that differ are none.
 StatedCamera onlyCamera(const std::vector<StatedCamera>& cameras) {
   const StatedCamera* chosen = nullptr;
-  for (const StatedCamera& stated_camera : cameras) {
-    if (!stated_camera.cahv) continue;
-    if (chosen != nullptr && !sameModel(*chosen, stated_camera)) {
-      StatedCamera none;
-      none.remark =
-          "the label states several camera models that differ; give a camera file with "
-          "that of the image";
-      return none;
-    }
-    if (chosen == nullptr) chosen = &stated_camera;
+  StatedCamera none;
+  for (const StatedCamera& camera : cameras) {
+    if (!camera.cahv) continue;
+    if (chosen == nullptr) chosen = &camera;
+    if (chosen == &camera || sameModel(*chosen, camera)) continue;
+    none.remark =
+        "the label states several camera models that differ; give a camera file with that of the "
+        "image";
+    return none;
   }
   if (chosen != nullptr) return *chosen;
-  for (const StatedCamera& stated_camera : cameras)
-    if (stated_camera.remark != kNone) return stated_camera;
+  for (const StatedCamera& camera : cameras)
+    if (camera.remark != kNone) return camera;
   if (!cameras.empty()) return cameras.front();
-  StatedCamera none;
   none.remark = "the label has no camera model";
   return none;
 }
@@ -264,8 +231,7 @@ StatedCamera onlyCamera(const std::vector<StatedCamera>& cameras) {
 }  // namespace
 
 bool isCameraGroup(std::string_view name) {
-  return name == "GEOMETRIC_CAMERA_MODEL" || name == "GEOMETRIC_CAMERA_MODEL_PARMS" ||
-         name == "CAMERA_MODEL";
+  return isOneOf(name, {"GEOMETRIC_CAMERA_MODEL", "GEOMETRIC_CAMERA_MODEL_PARMS", "CAMERA_MODEL"});
 }
 
 bool sameModel(const StatedCamera& a, const StatedCamera& b) {
@@ -281,10 +247,12 @@ bool sameModel(const StatedCamera& a, const StatedCamera& b) {
 }
 
 StatedCamera statedCamera(LabelFormat format, const json& label) {
-  if (format != LabelFormat::kPds4) return onlyCamera(groupCameras(format, label));
   std::vector<StatedCamera> cameras;
-  for (const json* parameters : elementsNamed(label, "Camera_Model_Parameters"))
-    cameras.push_back(elementCamera(*parameters));
+  for (const auto& [name, group] : labelGroups(format, label))
+    if (isCameraGroup(name)) cameras.push_back(groupCamera(*group));
+  if (format == LabelFormat::kPds4)
+    for (const json* parameters : elementsNamed(label, "Camera_Model_Parameters"))
+      cameras.push_back(elementCamera(*parameters));
   return onlyCamera(cameras);
 }
 

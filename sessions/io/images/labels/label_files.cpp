@@ -7,6 +7,7 @@
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/images/image_decoder.h"
 #include "sessions/io/images/image_file.h"
 #include "sessions/io/images/labels/label_values.h"
 
@@ -165,25 +166,9 @@ std::string readPds3Label(LabelFiles& files) {
 }
 
 std::string readPds4Label(LabelFiles& files) {
-  const auto& bytes = files.parts.front().bytes;
-  if (bytes.size() > kMaxLabelBytes)
+  if (files.parts.front().bytes.size() > kMaxLabelBytes)
     throw InputError(files.file, "the PDS4 label is larger than 4 MB");
-  XmlLabel label = readXmlLabel(files.file, asText(bytes));
-  files.elements = std::move(label.tree);
-  files.remark = std::move(label.remark);
-  files.rewritten.assign(label.text.begin(), label.text.end());
-  return label.file_name;
-}
-
-void requireBeside(const fs::path& label_file, const std::string& name) {
-  const bool plain = !name.empty() && name != "." && name != ".." && name.size() <= 255 &&
-                     std::all_of(name.begin(), name.end(), [](char c) {
-                       return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\';
-                     });
-  if (!plain)
-    throw InputError(label_file, "the label names the file '" + oneLine(name).substr(0, 80) +
-                                     "', which is not in its folder: only a name without a folder "
-                                     "is followed");
+  return readXmlLabel(files);
 }
 
 /// The file of that name in the label's folder; upper and lower case may differ, as on discs that
@@ -209,33 +194,33 @@ std::vector<std::uint8_t> beginningOf(const fs::path& file, std::size_t count) {
   }
 }
 
-bool isOtherPicture(std::span<const std::uint8_t> bytes) {
-  const std::string_view text = asText(bytes);
-  using namespace std::string_view_literals;
-  for (const std::string_view begin : {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv})
-    if (text.starts_with(begin)) return true;
-  return text.empty();
-}
-
 /// Whether the label's pixels are those of the file.
 bool names(const fs::path& label_file, const fs::path& file) {
-  const auto bytes = beginningOf(label_file, kMaxLabelBytes);
-  const auto format = labelFormatOf(bytes);
-  const std::string wanted = lowerCase(file.filename().string());
+  LabelFiles label;
+  label.file = label_file;
+  label.parts.push_back({"", beginningOf(label_file, kMaxLabelBytes)});
+  const auto format = labelFormatOf(label.parts.front().bytes);
+  std::string named;
   try {
     if (format == LabelFormat::kPds3)
-      return lowerCase(pds3PixelsFile(pds3Label(asText(bytes)))) == wanted;
-    if (format == LabelFormat::kPds4)
-      return lowerCase(readXmlLabel(label_file, asText(bytes)).file_name) == wanted;
+      named = pds3PixelsFile(pds3Label(asText(label.parts.front().bytes)));
+    if (format == LabelFormat::kPds4) named = readXmlLabel(label);
   } catch (const InputError&) {
     // Not a label that says so.
   }
-  return false;
+  return lowerCase(named) == lowerCase(file.filename().string());
 }
 
 /// Reads the file of the pixels that the label names.
 void readPixelsPart(LabelFiles& files, const std::string& name) {
-  requireBeside(files.file, name);
+  const bool plain = !name.empty() && name != "." && name != ".." && name.size() <= 255 &&
+                     std::all_of(name.begin(), name.end(), [](char c) {
+                       return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\';
+                     });
+  if (!plain)
+    throw InputError(files.file, "the label names the file '" + oneLine(name).substr(0, 80) +
+                                     "', which is not in its folder: only a name without a folder "
+                                     "is followed");
   const fs::path part = fileBeside(files.file, name);
   std::error_code error;
   // A label next to the pixels may name itself.
@@ -287,7 +272,7 @@ std::optional<fs::path> labelFileOf(const fs::path& file) {
   if (skipBlanks(withoutMark(asText(begin))).starts_with('<'))
     begin = beginningOf(file, kMaxLabelBytes);
   if (labelFormatOf(begin)) return file;
-  if (isOtherPicture(begin)) return std::nullopt;
+  if (begin.empty() || imageContainerOf(begin) != nullptr) return std::nullopt;
   for (const char* ending : {".lbl", ".LBL", ".xml", ".XML"}) {
     fs::path label = file;
     label.replace_extension(ending);
@@ -297,10 +282,7 @@ std::optional<fs::path> labelFileOf(const fs::path& file) {
 }
 
 LabelFiles readLabelFiles(const fs::path& label_file) {
-  return readLabelFiles(label_file, readFileBytes(label_file, kMaxImageFileBytes));
-}
-
-LabelFiles readLabelFiles(const fs::path& label_file, std::vector<std::uint8_t> label_bytes) {
+  std::vector<std::uint8_t> label_bytes = readFileBytes(label_file, kMaxImageFileBytes);
   const auto format = labelFormatOf(label_bytes);
   if (!format) throw InputError(label_file, "not a VICAR, PDS3 or PDS4 label");
   LabelFiles files;

@@ -44,7 +44,9 @@ struct LabelFiles {
   std::string sha256;            ///< of all parts, one after the other
   /// The label as GDAL needs it, where that differs from the first part; else empty.
   std::vector<std::uint8_t> rewritten;
-  std::shared_ptr<const nlohmann::json> elements;  ///< of PDS4: readXmlLabel's tree
+  /// Of PDS4: elements by their names without prefix, those with an attribute `unit` as {"value",
+  /// "unit"}, repeated ones as arrays.
+  std::shared_ptr<const nlohmann::json> elements;
   std::string remark;  ///< which of several PDS4 arrays is read; else empty
 
   /// The first part as passed to GDAL: exponents D become E; a PDS4 label keeps only the array that
@@ -57,19 +59,12 @@ struct LabelFiles {
 /// Whether the text is XML that names a Product_Observational.
 bool isXmlLabel(std::string_view text);
 
-/// A PDS4 label reduced to the one array that is read: constants of other arrays do not apply.
-struct XmlLabel {
-  /// Elements by their names without prefix, those with an attribute `unit` as {"value", "unit"},
-  /// repeated ones as arrays.
-  std::shared_ptr<const nlohmann::json> tree;
-  std::string file_name;  ///< of the array's file area
-  std::string text;       ///< XML of the file area alone, for GDAL
-  std::string remark;     ///< which of several arrays is read; else empty
-};
-
-/// The array is the first Array_2D_Image or Array_3D_Image, without one the first other array.
-/// InputError: XML that is damaged or nested too deep, no array, an array without a file.
-XmlLabel readXmlLabel(const std::filesystem::path& file, std::string_view text);
+/// Reduces a PDS4 label, the first part, to the one array that is read, as constants of other
+/// arrays do not apply: the first Array_2D_Image or Array_3D_Image, without one the first other
+/// array. Sets `elements`, `rewritten` (the file area alone) and `remark`, and returns the name of
+/// the file of the pixels. InputError: XML that is damaged or nested too deep, no array, an array
+/// without a file.
+std::string readXmlLabel(LabelFiles& files);
 
 inline constexpr int kMostLabelBands = 64;
 
@@ -80,8 +75,5 @@ std::optional<std::filesystem::path> labelFileOf(const std::filesystem::path& fi
 /// Reads the label and the file of its pixels, which must be in the same folder. InputError:
 /// unreadable, no label, pixels that are missing or in another folder, impossible sizes.
 LabelFiles readLabelFiles(const std::filesystem::path& label_file);
-/// The same of bytes that are already read.
-LabelFiles readLabelFiles(const std::filesystem::path& label_file,
-                          std::vector<std::uint8_t> label_bytes);
 
 }  // namespace boresight::sessions

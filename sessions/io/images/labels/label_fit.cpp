@@ -24,10 +24,10 @@ constexpr const char* kAdvice = "; give a camera file that fits";
 /// Along one side of the image.
 struct Side {
   double size_px;
-  double principal_px;    ///< in the image
-  double first = 0.0;     ///< of the detector
-  double step = 1.0;      ///< detector samples a pixel
-  double detector = 0.0;  ///< upper bound of the detector's samples; 0: not known
+  double principal_px;  ///< in the image
+  double first;         ///< of the detector
+  double step;          ///< detector samples a pixel
+  double detector;      ///< upper bound of the detector's samples; 0: not known
 
   double onDetector() const { return first + (principal_px + 0.5) * step - 0.5; }
   /// The detector has at least these samples.
@@ -199,21 +199,14 @@ std::string cameraMisfit(const CahvModel& cahv, int width, int height,
            "A, H and V must not lie along A or along each other, and 1 + r0 must be positive";
   const std::string axes = axesMisfit(camera);
   if (!axes.empty()) return axes;
-  Side x{static_cast<double>(width), camera.cx};
-  Side y{static_cast<double>(height), camera.cy};
-  if (subframe) {
-    x.first = subframe->first_sample;
-    x.step = subframe->samples_per_pixel;
-    y.first = subframe->first_line;
-    y.step = subframe->lines_per_pixel;
-  }
+  const LabelSubframe cut = subframe.value_or(LabelSubframe());
+  const Side x{static_cast<double>(width), camera.cx, static_cast<double>(cut.first_sample),
+               cut.samples_per_pixel, static_cast<double>(detector.width)};
+  const Side y{static_cast<double>(height), camera.cy, static_cast<double>(cut.first_line),
+               cut.lines_per_pixel, static_cast<double>(detector.height)};
   const std::string focal =
       focalMisfit(x, y, std::abs(camera.fx), std::abs(camera.fy), subframe.has_value());
   if (!focal.empty()) return focal;
-  if (detector.model_of_subframe) {
-    x.detector = detector.width;
-    y.detector = detector.height;
-  }
   const bool part = subframe && (x.isPart() || y.isPart());
   return part ? partMisfit(x, y, detector.model_of_subframe)
               : uncutMisfit(x, y, subframe.has_value());

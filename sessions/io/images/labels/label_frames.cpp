@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-/// `parts` are the index as numbers, none where a part is no whole number; `text` the same as
-/// words.
+/// `parts` are the numbers of the index, empty where a part is not a whole number; `text` is the
+/// index as it is written.
 FrameName frameWith(std::string name, const std::vector<std::optional<std::int64_t>>& parts,
                     const std::string& text, std::vector<std::string>& flags) {
   FrameName frame{std::move(name), {}};
@@ -36,19 +36,20 @@ constexpr double kMostQuaternionError = 1e-3;
 constexpr double kLargest_m = 1e9;
 constexpr std::size_t kMostFrames = 200;
 
-/// The unit of an offset where it is stated: of one in mm no place is read.
-std::optional<Eigen::Vector3d> offsetIn_m(const json* value) {
-  const std::string unit = labelUnit(value);
-  if (!unit.empty() && unit != "M" && unit != "METER" && unit != "METERS") return std::nullopt;
-  return labelVector(value);
+/// Numbers of an offset; none where a unit other than the metre is stated.
+std::vector<double> offsetIn_m(const json* value) {
+  if (!isOneOf(labelUnit(value), {"", "M", "METER", "METERS"})) return {};
+  return labelNumbers(value);
 }
 
-std::optional<Pose> poseOf(const std::optional<Eigen::Vector3d>& offset_m,
-                           const std::vector<double>& wxyz) {
-  if (!offset_m || wxyz.size() != 4 || !(offset_m->norm() <= kLargest_m)) return std::nullopt;
+std::optional<Pose> poseOf(const std::vector<double>& xyz_m, const std::vector<double>& wxyz) {
+  if (xyz_m.size() != 3 || wxyz.size() != 4) return std::nullopt;
+  const Eigen::Vector3d offset_m(xyz_m[0], xyz_m[1], xyz_m[2]);
   const Eigen::Quaterniond rotation(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
-  if (!(std::abs(rotation.norm() - 1.0) <= kMostQuaternionError)) return std::nullopt;
-  return Pose{rotation.normalized(), *offset_m};
+  if (!(offset_m.norm() <= kLargest_m) ||
+      !(std::abs(rotation.norm() - 1.0) <= kMostQuaternionError))
+    return std::nullopt;
+  return Pose{rotation.normalized(), offset_m};
 }
 
 void add(FrameName frame, FrameName reference, const std::optional<Pose>& pose,
@@ -65,39 +66,28 @@ void add(FrameName frame, FrameName reference, const std::optional<Pose>& pose,
 void groupFrames(LabelFormat format, const json& label, std::vector<LabelFrame>& frames,
                  std::vector<std::string>& flags) {
   for (const auto& [name, group] : labelGroups(format, label)) {
-    if (name.find("COORDINATE_SYSTEM") == std::string::npos) continue;
-    if (labelMember(group, "ORIGIN_OFFSET_VECTOR") == nullptr &&
-        labelMember(group, "ORIGIN_ROTATION_QUATERNION") == nullptr)
+    const json* offset = labelMember(group, "ORIGIN_OFFSET_VECTOR");
+    const json* quaternion = labelMember(group, "ORIGIN_ROTATION_QUATERNION");
+    if (name.find("COORDINATE_SYSTEM") == std::string::npos ||
+        (offset == nullptr && quaternion == nullptr))
       continue;
     const FrameName frame =
         groupFrame(*group, "COORDINATE_SYSTEM_NAME", "COORDINATE_SYSTEM_INDEX", flags);
     const FrameName reference =
         groupFrame(*group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX", flags);
-    add(frame, reference,
-        poseOf(offsetIn_m(labelMember(group, "ORIGIN_OFFSET_VECTOR")),
-               labelNumbers(labelMember(group, "ORIGIN_ROTATION_QUATERNION"))),
-        frames, flags);
+    add(frame, reference, poseOf(offsetIn_m(offset), labelNumbers(quaternion)), frames, flags);
   }
 }
 
-std::vector<double> elementQuaternion(const json* element) {
-  std::vector<double> wxyz;
-  for (const char* name : {"qcos", "qsin1", "qsin2", "qsin3"})
-    if (const auto number = labelNumber(labelMember(element, name))) wxyz.push_back(*number);
-  return wxyz;
-}
-
-std::optional<Eigen::Vector3d> elementOffset(const json* element) {
-  Eigen::Vector3d offset_m;
-  int axis = 0;
-  for (const char* name : {"x_position", "y_position", "z_position"}) {
+/// The numbers of an element's children of these names; without those in a unit other than metres.
+std::vector<double> elementNumbers(const json* element, std::initializer_list<const char*> names) {
+  std::vector<double> numbers;
+  for (const char* name : names) {
     const json* value = labelMember(element, name);
     const auto number = labelNumber(value);
-    const std::string unit = labelUnit(value);
-    if (!number || (!unit.empty() && unit != "M")) return std::nullopt;
-    offset_m[axis++] = *number;
+    if (number && isOneOf(labelUnit(value), {"", "M"})) numbers.push_back(*number);
   }
-  return offset_m;
+  return numbers;
 }
 
 /// The reference is named whole, or by the identifier of another definition.
@@ -127,8 +117,9 @@ void elementFrames(const json& label, std::vector<LabelFrame>& frames,
     if (present == nullptr) continue;
     const json* quaternion = labelMember(definition, "Quaternion_Plus_Direction");
     std::optional<Pose> pose =
-        poseOf(elementOffset(labelMember(definition, "Vector_Origin_Offset")),
-               elementQuaternion(quaternion));
+        poseOf(elementNumbers(labelMember(definition, "Vector_Origin_Offset"),
+                              {"x_position", "y_position", "z_position"}),
+               elementNumbers(quaternion, {"qcos", "qsin1", "qsin2", "qsin3"}));
     // "Forward" maps the frame's vectors into its reference, as the groups of PDS3 do.
     const auto direction = labelText(labelMember(quaternion, "rotation_direction"));
     if (pose && direction && upperCase(*direction) != "FORWARD")
@@ -145,10 +136,9 @@ FrameName groupFrame(const json& group, std::string_view name, std::string_view 
                      std::vector<std::string>& flags) {
   const json* stated = labelMember(&group, index);
   std::vector<std::optional<std::int64_t>> parts;
-  if (stated != nullptr && stated->is_array())
-    for (const json& part : *stated) parts.push_back(labelInteger(&part));
-  else if (labelText(stated))  // "N/A" is no index
-    parts.push_back(labelInteger(stated));
+  for (const json* part : labelList(stated))
+    if (part != stated || labelText(part))  // "N/A" alone is no index
+      parts.push_back(labelInteger(part));
   return frameWith(labelText(labelMember(&group, name)).value_or(""), parts,
                    joined(labelTexts(stated)), flags);
 }
@@ -156,17 +146,12 @@ FrameName groupFrame(const json& group, std::string_view name, std::string_view 
 FrameName indexedFrame(const json& space, std::vector<std::string>& flags) {
   std::vector<std::optional<std::int64_t>> parts;
   std::vector<std::string> texts;
-  const auto add = [&](const json& index) {
+  for (const json* index : labelList(labelMember(&space, "Coordinate_Space_Index"))) {
     const json* value =
-        labelMember(&index, {"index_value_number", "index_value_string", "index_value"});
+        labelMember(index, {"index_value_number", "index_value_string", "index_value"});
     parts.push_back(labelInteger(value));
     texts.push_back(labelText(value).value_or("N/A"));
-  };
-  const json* indices = labelMember(&space, "Coordinate_Space_Index");
-  if (indices != nullptr && indices->is_array())
-    for (const json& index : *indices) add(index);
-  else if (indices != nullptr)
-    add(*indices);
+  }
   return frameWith(labelText(labelMember(&space, "coordinate_space_frame_type")).value_or(""),
                    parts, joined(texts), flags);
 }

@@ -213,22 +213,13 @@ void requireStatedLayout(const LabelFiles& files, const json& label, const Label
                          std::to_string(raw.nImageOffset));
 }
 
-/// The label's items at the end of a VICAR file begin at this byte and are there to the last.
-void requireEndLabel(const LabelFiles& files, std::int64_t at) {
-  const std::string_view text = asText(files.labelBytes());
-  const std::string_view end = text.substr(std::min(static_cast<std::size_t>(at), text.size()));
-  const auto size = statedInteger(end.substr(0, 64), "LBLSIZE");
-  if (!size || *size < 1 || static_cast<std::uint64_t>(*size) > end.size())
-    throw InputError(files.file, "EOL", "the part of the label at the file's end is incomplete");
-}
-
 /// The sizes of a VICAR label agree: a record is NBB bytes and N1 samples, the label a number of
-/// records.
+/// records, and the items at the file's end are complete.
 void requireStatedRecords(const LabelFiles& files, const json& label, const LabelPicture& picture) {
   const std::string_view text = asText(files.labelBytes());
   const std::int64_t label_size = statedInteger(text, "LBLSIZE").value_or(0);
-  const auto stated = [own = text.substr(0, static_cast<std::size_t>(label_size))](
-                          const char* key) { return statedInteger(own, key).value_or(0); };
+  const std::string_view own = text.substr(0, static_cast<std::size_t>(label_size));
+  const auto stated = [own](const char* key) { return statedInteger(own, key).value_or(0); };
   const std::string order = wordOf(&label, "ORG");
   const bool by_pixel = order == "BIP";
   // A record is then one pixel, and GDAL misreads the prefix of each.
@@ -248,8 +239,13 @@ void requireStatedRecords(const LabelFiles& files, const json& label, const Labe
     throw InputError(files.file, "LBLSIZE",
                      std::to_string(label_size) + " is no multiple of the " +
                          std::to_string(record) + " bytes of a record");
-  const auto end = vicarEndLabel(text.substr(0, static_cast<std::size_t>(label_size)));
-  if (end) requireEndLabel(files, *end);
+  const auto end_at = vicarEndLabel(own);
+  if (!end_at) return;
+  const std::string_view end =
+      text.substr(std::min(static_cast<std::size_t>(*end_at), text.size()));
+  const std::int64_t end_size = statedInteger(end.substr(0, 64), "LBLSIZE").value_or(0);
+  if (end_size < 1 || static_cast<std::uint64_t>(end_size) > end.size())
+    throw InputError(files.file, "EOL", "the part of the label at the file's end is incomplete");
 }
 
 /// GDAL fills what is missing at the end of a file with zeros.
@@ -298,13 +294,6 @@ json vicarHeader(const LabelFiles& files, const OpenedLabel& opened) {
 }
 
 }  // namespace
-
-std::string SampleType::name() const {
-  return std::to_string(bits) + "-bit " +
-         (floating    ? "floating-point numbers"
-          : is_signed ? "signed integers"
-                      : "unsigned integers");
-}
 
 LabelRaster openLabelRaster(const LabelFiles& files) {
   const auto opened = std::make_shared<OpenedLabel>(files);

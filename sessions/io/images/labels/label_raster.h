@@ -16,8 +16,6 @@ struct SampleType {
   int bits = 8;
   bool floating = false;
   bool is_signed = false;
-
-  std::string name() const;  ///< "16-bit signed integers"
 };
 
 /// Layout of the pixels according to their header.
@@ -33,7 +31,7 @@ struct LabelPicture {
 struct LabelRaster {
   LabelPicture picture;
   /// VICAR and PDS3: GDAL's JSON, with IMAGE at the top also if the label has it in an OBJECT =
-  /// FILE. PDS4: the tree of readXmlLabel.
+  /// FILE. PDS4: LabelFiles::elements.
   nlohmann::json label;
   nlohmann::json vicar_label;  ///< of the VICAR header inside a PDS3 file; else null
   /// Reads a row of a band (both from 0), exact in double. InputError.

@@ -47,6 +47,11 @@ struct Source {
       if (const json* found = labelPath(imaging, {group, key})) return found;
     return nullptr;
   }
+  /// Of PDS4: the first element of this name that is not below `except`.
+  const json* first(std::string_view name, std::string_view except = {}) const {
+    const auto found = elementsNamed(tree, name, except);
+    return found.empty() ? nullptr : found.front();
+  }
 };
 
 void addItem(std::vector<LabelItem>& items, std::string name, const json* value) {
@@ -55,31 +60,27 @@ void addItem(std::vector<LabelItem>& items, std::string name, const json* value)
     items.push_back({std::move(name), std::move(text)});
 }
 
-std::vector<LabelItem> elementIdentifiers(const json& tree) {
+std::vector<LabelItem> elementIdentifiers(const Source& source) {
   std::vector<LabelItem> items;
-  const json* area = labelMember(&tree, "Observation_Area");
+  const json* area = labelMember(&source.tree, "Observation_Area");
   const auto add = [&](const char* name, const json* value) { addItem(items, name, value); };
   add("Investigation_Area", labelPath(area, {"Investigation_Area", "name"}));
   std::vector<std::string> system;
-  if (const json* components =
-          labelPath(area, {"Observing_System", "Observing_System_Component"})) {
-    const json list = components->is_array() ? *components : json::array({*components});
-    for (const json& item : list)
-      if (const auto name = labelText(labelMember(&item, "name"))) system.push_back(*name);
-  }
+  for (const json* component :
+       labelList(labelPath(area, {"Observing_System", "Observing_System_Component"})))
+    if (const auto name = labelText(labelMember(component, "name"))) system.push_back(*name);
   if (!system.empty()) items.push_back({"Observing_System_Component", joined(system)});
-  add("logical_identifier", labelPath(&tree, {"Identification_Area", "logical_identifier"}));
+  add("logical_identifier", labelPath(&source.tree, {"Identification_Area", "logical_identifier"}));
   add("start_date_time", labelPath(area, {"Time_Coordinates", "start_date_time"}));
   for (const char* name :
        {"spacecraft_clock_start", "start_sol_number", "sequence_id", "geometry_projection_type"})
-    if (const auto found = elementsNamed(tree, name, "Commanded_Parameters"); !found.empty())
-      add(name, found.front());
+    add(name, source.first(name, "Commanded_Parameters"));
   add("Target_Identification", labelPath(area, {"Target_Identification", "name"}));
   return items;
 }
 
 std::vector<LabelItem> identifiersOf(const Source& source) {
-  if (source.elements()) return elementIdentifiers(source.tree);
+  if (source.elements()) return elementIdentifiers(source);
   std::vector<LabelItem> items;
   for (const char* key : {"MISSION_NAME", "INSTRUMENT_HOST_ID", "INSTRUMENT_ID", "INSTRUMENT_NAME",
                           "PRODUCT_ID", "IMAGE_ID", "START_TIME", "SPACECRAFT_CLOCK_START_COUNT",
@@ -95,12 +96,11 @@ std::optional<LabelSubframe> subframeOf(const Source& source) {
                                           : source.image(key));
   };
   const auto averaged = [&](const char* key, const char* element) -> std::optional<double> {
-    const json* value = nullptr;
-    if (source.elements())
-      value = labelPath(source.imaging("Downsampling", "Pixel_Averaging_Dimensions"), {element});
-    else
-      value = source.state(key) != nullptr ? source.state(key) : source.image(key);
-    const auto number = labelNumber(value);
+    const json* value =
+        source.elements()
+            ? labelPath(source.imaging("Downsampling", "Pixel_Averaging_Dimensions"), {element})
+            : source.state(key);
+    const auto number = labelNumber(value != nullptr ? value : source.image(key));
     if (!number || !(*number >= 1.0 && *number <= 1024.0)) return std::nullopt;
     return number;
   };
@@ -160,11 +160,11 @@ std::vector<InvalidValue> invalidValues(const Source& source, const LabelPicture
   }
   const json* area = labelMember(&source.tree, "File_Area_Observational");
   if (area == nullptr || !area->is_object()) return values;
-  for (auto array = area->begin(); array != area->end(); ++array) {
-    if (!array.key().starts_with("Array")) continue;
+  for (const auto& [name, array] : area->items()) {
+    if (!name.starts_with("Array")) continue;
     for (const char* key : {"missing_constant", "invalid_constant", "unknown_constant",
                             "not_applicable_constant", "error_constant"})
-      add(labelPath(&*array, {"Special_Constants", key}));
+      add(labelPath(&array, {"Special_Constants", key}));
   }
   return values;
 }
@@ -224,16 +224,12 @@ std::string bayerPattern(const Source& source, const LabelPicture& picture) {
 }
 
 std::string derivedType(const Source& source) {
-  std::optional<std::string> type;
-  if (source.elements()) {
-    const auto found = elementsNamed(source.tree, "derived_image_type_name");
-    if (!found.empty()) type = labelText(found.front());
-  } else {
-    type = labelText(labelItem(source.format, source.tree, {"DERIVED_IMAGE_PARMS", "DERIVED_IMAGE"},
-                               "DERIVED_IMAGE_TYPE"));
-  }
-  const std::string name = upperCase(type.value_or(""));
-  return name == "NONE" || name == "IMAGE" || name == "IMAGE MAP" ? "" : name;
+  const json* type =
+      source.elements() ? source.first("derived_image_type_name")
+                        : labelItem(source.format, source.tree,
+                                    {"DERIVED_IMAGE_PARMS", "DERIVED_IMAGE"}, "DERIVED_IMAGE_TYPE");
+  const std::string name = upperCase(labelText(type).value_or(""));
+  return isOneOf(name, {"NONE", "IMAGE", "IMAGE MAP"}) ? "" : name;
 }
 
 /// Of two labels in one file the PDS3 label counts; the other where only it has a model.
@@ -284,9 +280,8 @@ class Statements {
         (void)quoted();
       } else if (key = word(); key.empty()) {
         text_.remove_prefix(1);
-      } else if (skipBlanks(); text_.starts_with('=')) {
-        text_.remove_prefix(1);
-        skipBlanks();
+      } else if (text_ = skipBlanks(text_); text_.starts_with('=')) {
+        text_ = skipBlanks(text_.substr(1));
         value = text_.starts_with('\'') ? quoted() : word();
         return true;
       }
@@ -298,9 +293,6 @@ class Statements {
   std::string_view value;  ///< a word, or the text between ' and '; else empty
 
  private:
-  void skipBlanks() {
-    text_.remove_prefix(std::min(text_.find_first_not_of(" \t\r\n"), text_.size()));
-  }
   void skipBehind(std::string_view end) {
     const std::size_t at = text_.find(end, 1);
     text_.remove_prefix(at == std::string_view::npos ? text_.size() : at + end.size());
@@ -331,9 +323,9 @@ std::string statedTwice(std::string_view text, std::set<std::string>& properties
   bool in_model = false;
   while (statements.next()) {
     const std::string key = upperCase(statements.key);
-    const bool begins = key == "GROUP" || key == "OBJECT" || key == "PROPERTY";
+    const bool begins = isOneOf(key, {"GROUP", "OBJECT", "PROPERTY"});
     if (begins) keys.clear();
-    if (begins || key == "END_GROUP" || key == "END_OBJECT" || key == "TASK") {
+    if (begins || isOneOf(key, {"END_GROUP", "END_OBJECT", "TASK"})) {
       in_model = begins && isCameraGroup(statements.value);
       if (in_model && key == "PROPERTY" && !properties.emplace(statements.value).second)
         return std::string(statements.value);
@@ -403,12 +395,6 @@ bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file)
 ImageLabel readImageLabel(const std::filesystem::path& file) {
   const LabelFiles files = readLabelFiles(labelFileOf(file).value_or(file));
   return readLabel(files, openLabelRaster(files)).label;
-}
-
-CameraFile readLabelCamera(const std::filesystem::path& file) {
-  const ImageLabel label = readImageLabel(file);
-  if (!label.camera) throw InputError(file, label.camera_remark);
-  return *label.camera;
 }
 
 }  // namespace boresight::sessions

@@ -179,10 +179,6 @@ Range withoutOutliers(const LabelRaster& raster, const Validity& valid, const Ra
   return range;
 }
 
-std::uint16_t luma(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
-  return static_cast<std::uint16_t>((9798u * red + 19235u * green + 3735u * blue + 16384u) >> 15);
-}
-
 void readValues(const LabelRaster& raster, const Validity& valid, const Range& range,
                 LabelSamples& samples) {
   const auto width = static_cast<std::size_t>(raster.picture.width);
@@ -217,9 +213,13 @@ void requirePicture(const LabelFiles& files, const LabelRaster& raster,
 }
 
 std::string ruleOf(const LabelSamples& samples, const Range& range, const SampleType& type) {
+  const std::string kind = type.floating    ? "floating-point numbers"
+                           : type.is_signed ? "signed integers"
+                                            : "unsigned integers";
   std::string rule;
   if (samples.quantized)
-    rule = type.name() + " v as q = floor((v - low) / (high - low) * 65535 + " + "0.5), low " +
+    rule = std::to_string(type.bits) + "-bit " + kind +
+           " v as q = floor((v - low) / (high - low) * 65535 + 0.5), low " +
            numberText(range.lowest) + ", high " + numberText(range.highest) +
            (range.clipped_count == 0
                 ? ""
@@ -234,13 +234,11 @@ std::string ruleOf(const LabelSamples& samples, const Range& range, const Sample
 
 void addInvalidValues(const json* stated, bool floating, int sample_bits,
                       std::vector<InvalidValue>& values) {
-  if (stated == nullptr) return;
-  const json list = stated->is_array() ? *stated : json::array({*stated});
-  for (const json& item : list) {
-    if (const auto number = labelNumber(&item)) {
+  for (const json* item : labelList(stated)) {
+    if (const auto number = labelNumber(item)) {
       const bool rounded = floating && std::abs(*number) >= kBeyondMeasurement;
       add(*number, rounded ? halfDigit(*number) : 0.0, values);
-    } else if (const auto pattern = bitPattern(labelText(&item).value_or(""))) {
+    } else if (const auto pattern = bitPattern(labelText(item).value_or(""))) {
       addPattern(*pattern, floating, sample_bits, values);
     }
   }
@@ -256,7 +254,6 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
     throw InputError(
         files.file, "no sample of the image has a value: all are missing, invalid or not a number");
   LabelSamples samples;
-  samples.container = labelFormatName(files.format);
   samples.width = raster.picture.width;
   samples.height = raster.picture.height;
   samples.bands = raster.picture.bands;
@@ -271,14 +268,12 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
           std::to_string(range.clipped_count) + " samples are far outliers (the full range is " +
           numberText(whole.lowest) + " to " + numberText(whole.highest) + ") and are clipped to " +
           numberText(range.lowest) + " .. " + numberText(range.highest));
+    samples.offset = range.lowest;
+    samples.scale = (range.highest / kLargestWhole) - (range.lowest / kLargestWhole);
   }
   samples.sample_bits = raster.picture.type.bits == 8 && !samples.quantized ? 8 : 16;
   samples.highest = samples.quantized ? 65535 : static_cast<int>(range.highest);
   samples.invalid_count = range.invalid_count;
-  if (samples.quantized) {
-    samples.offset = range.lowest;
-    samples.scale = (range.highest / kLargestWhole) - (range.lowest / kLargestWhole);
-  }
   samples.rule = ruleOf(samples, range, raster.picture.type);
   samples.label = std::make_shared<const ImageLabel>(label);
   samples.sha256 = files.sha256;

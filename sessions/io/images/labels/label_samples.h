@@ -26,9 +26,13 @@ struct InvalidValue {
 void addInvalidValues(const nlohmann::json* stated, bool floating, int sample_bits,
                       std::vector<InvalidValue>& values);
 
+/// OpenCV's integer luma of 16-bit colour.
+constexpr std::uint16_t luma(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
+  return static_cast<std::uint16_t>((9798u * red + 19235u * green + 3735u * blue + 16384u) >> 15);
+}
+
 /// The samples of an image with a label as 8 or 16 bits of gray, by the stated rule.
 struct LabelSamples {
-  std::string container;  ///< "VICAR", "PDS3", "PDS4"
   int width = 0;
   int height = 0;
   int bands = 1;                      ///< of the file: 1, or 3 (red, green, blue, turned into luma)

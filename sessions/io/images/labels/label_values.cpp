@@ -50,13 +50,6 @@ std::optional<double> numberOf(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-bool isAbsent(const std::string& text) {
-  const std::string word = upperCase(text);
-  for (const char* absent : {"", "N/A", "NULL", "UNK", "UNKNOWN"})
-    if (word == absent) return true;
-  return false;
-}
-
 constexpr std::size_t kMostElements = 1000;
 constexpr int kMostDepth = 80;
 
@@ -66,19 +59,28 @@ void collect(const json& value, std::string_view name, std::string_view except, 
   if (value.is_array())
     for (const json& item : value) collect(item, name, except, depth + 1, found);
   if (!value.is_object()) return;
-  for (auto member = value.begin(); member != value.end(); ++member) {
-    if (!except.empty() && member.key() == except) continue;
-    if (member.key() == name) {
-      if (!member->is_array() && found.size() < kMostElements) found.push_back(&*member);
-      if (member->is_array())
-        for (const json& item : *member)
-          if (found.size() < kMostElements) found.push_back(&item);
-    }
-    collect(*member, name, except, depth + 1, found);
+  for (const auto& [key, member] : value.items()) {
+    if (!except.empty() && key == except) continue;
+    if (key == name)
+      for (const json* item : labelList(&member))
+        if (found.size() < kMostElements) found.push_back(item);
+    collect(member, name, except, depth + 1, found);
   }
 }
 
 }  // namespace
+
+bool isOneOf(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+std::vector<const json*> labelList(const json* value) {
+  if (value == nullptr) return {};
+  if (!value->is_array()) return {value};
+  std::vector<const json*> elements;
+  for (const json& element : *value) elements.push_back(&element);
+  return elements;
+}
 
 const json* labelMember(const json* object, std::string_view key) {
   if (object == nullptr || !object->is_object()) return nullptr;
@@ -110,7 +112,7 @@ std::optional<std::string> labelText(const json* value) {
     if (text.size() >= 2 && text.front() == '\'' && text.back() == '\'')
       text = text.substr(1, text.size() - 2);
     text = std::string(trimmed(oneLine(text)));
-    if (isAbsent(text)) return std::nullopt;
+    if (isOneOf(upperCase(text), {"", "N/A", "NULL", "UNK", "UNKNOWN"})) return std::nullopt;
     return text;
   }
   if (value->is_number_integer()) return std::to_string(value->get<std::int64_t>());
@@ -120,14 +122,9 @@ std::optional<std::string> labelText(const json* value) {
 }
 
 std::vector<std::string> labelTexts(const json* value) {
-  value = unwrapped(value);
   std::vector<std::string> texts;
-  if (value == nullptr) return texts;
-  if (!value->is_array()) return {labelText(value).value_or("")};
-  for (const json& item : *value) {
-    if (texts.size() == kMostValues) break;
-    texts.push_back(labelText(&item).value_or(""));
-  }
+  for (const json* item : labelList(unwrapped(value)))
+    if (texts.size() < kMostValues) texts.push_back(labelText(item).value_or(""));
   return texts;
 }
 
@@ -144,16 +141,11 @@ std::optional<double> labelNumber(const json* value) {
 }
 
 std::vector<double> labelNumbers(const json* value) {
-  value = unwrapped(value);
+  const std::vector<const json*> items = labelList(unwrapped(value));
+  if (items.size() > kMostValues) return {};
   std::vector<double> numbers;
-  if (value == nullptr) return numbers;
-  if (!value->is_array()) {
-    if (const auto number = labelNumber(value)) numbers.push_back(*number);
-    return numbers;
-  }
-  if (value->size() > kMostValues) return numbers;
-  for (const json& item : *value) {
-    const auto number = labelNumber(&item);
+  for (const json* item : items) {
+    const auto number = labelNumber(item);
     if (!number) return {};
     numbers.push_back(*number);
   }
@@ -164,12 +156,6 @@ std::optional<std::int64_t> labelInteger(const json* value) {
   const auto number = labelNumber(value);
   if (!number || *number != std::floor(*number) || std::abs(*number) > 9e15) return std::nullopt;
   return static_cast<std::int64_t>(*number);
-}
-
-std::optional<Eigen::Vector3d> labelVector(const json* value) {
-  const std::vector<double> numbers = labelNumbers(value);
-  if (numbers.size() != 3) return std::nullopt;
-  return Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
 }
 
 std::string labelUnit(const json* value) {
@@ -183,15 +169,11 @@ std::string labelUnit(const json* value) {
         units.push_back(unit);
     return joined(units);
   }
-  if (value->is_object()) {
-    const json* unit = labelMember(value, "unit");
-    return unit != nullptr && unit->is_string()
-               ? upperCase(trimmed(unit->get_ref<const std::string&>()))
-               : "";
-  }
   if (value->is_string())
     return upperCase(numberAndUnit(value->get_ref<const std::string&>()).second);
-  return "";
+  const json* unit = labelMember(value, "unit");
+  if (unit == nullptr || !unit->is_string()) return "";
+  return upperCase(trimmed(unit->get_ref<const std::string&>()));
 }
 
 std::optional<BitPattern> bitPattern(std::string_view text) {
@@ -211,12 +193,6 @@ std::optional<BitPattern> bitPattern(std::string_view text) {
   return BitPattern{*bits, static_cast<int>(text.size()) * (base == 16 ? 4 : 1)};
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
-}
-
 std::vector<std::pair<std::string, const json*>> labelGroups(LabelFormat format,
                                                              const json& label) {
   std::vector<std::pair<std::string, const json*>> groups;
@@ -224,30 +200,25 @@ std::vector<std::pair<std::string, const json*>> labelGroups(LabelFormat format,
                        : format == LabelFormat::kPds3 ? &label
                                                       : nullptr;
   if (parent == nullptr || !parent->is_object()) return groups;
-  for (auto member = parent->begin(); member != parent->end(); ++member) {
-    if (!member->is_object()) continue;
-    if (format == LabelFormat::kPds3 && !member->contains("_type")) continue;
+  for (const auto& [key, member] : parent->items()) {
+    if (!member.is_object()) continue;
+    if (format == LabelFormat::kPds3 && !member.contains("_type")) continue;
     // The second group of a name is called NAME_2.
-    const auto name = labelText(labelMember(&*member, "_container_name"));
-    groups.emplace_back(name.value_or(member.key()), &*member);
+    const auto name = labelText(labelMember(&member, "_container_name"));
+    groups.emplace_back(name.value_or(key), &member);
   }
   return groups;
 }
 
-const json* labelGroup(LabelFormat format, const json& label,
-                       std::initializer_list<std::string_view> names) {
-  const auto groups = labelGroups(format, label);
-  for (const std::string_view name : names)
-    for (const auto& [found, group] : groups)
-      if (found == name) return group;
-  return nullptr;
-}
-
 const json* labelItem(LabelFormat format, const json& label,
                       std::initializer_list<std::string_view> groups, std::string_view key) {
-  if (groups.size() == 0) return labelMember(&label, key);
-  for (const std::string_view name : groups)
-    if (const json* value = labelMember(labelGroup(format, label, {name}), key)) return value;
+  const auto all = labelGroups(format, label);
+  for (const std::string_view name : groups) {
+    const auto group =
+        std::find_if(all.begin(), all.end(), [name](const auto& one) { return one.first == name; });
+    if (group == all.end()) continue;
+    if (const json* value = labelMember(group->second, key)) return value;
+  }
   return nullptr;
 }
 

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/text/plain_text.h"
@@ -28,6 +27,10 @@ inline std::string_view skipBlanks(std::string_view text) {
   return text;
 }
 
+/// The elements of a list; a single value is a list of one, no value an empty list.
+std::vector<const nlohmann::json*> labelList(const nlohmann::json* value);
+/// Whether the text is one of these words.
+bool isOneOf(std::string_view text, std::initializer_list<std::string_view> words);
 /// A member of an object; nullptr when either is missing.
 const nlohmann::json* labelMember(const nlohmann::json* object, std::string_view key);
 /// The member of the first of these keys that exists.
@@ -47,8 +50,6 @@ std::optional<double> labelNumber(const nlohmann::json* value);
 /// All numbers of a list; empty when an element is not a number. A single value is a list of one.
 std::vector<double> labelNumbers(const nlohmann::json* value);
 std::optional<std::int64_t> labelInteger(const nlohmann::json* value);
-/// Three numbers.
-std::optional<Eigen::Vector3d> labelVector(const nlohmann::json* value);
 /// The unit of a value, upper case, "" without one; all units of a list, each once.
 std::string labelUnit(const nlohmann::json* value);
 
@@ -59,17 +60,11 @@ struct BitPattern {
 };
 std::optional<BitPattern> bitPattern(std::string_view text);
 
-/// Several texts as one, separated by ", ".
-std::string joined(const std::vector<std::string>& texts);
-
 /// Groups of a VICAR label (its properties) or a PDS3 label (groups and objects) by name; a name
 /// may occur twice. Empty for PDS4.
 std::vector<std::pair<std::string, const nlohmann::json*>> labelGroups(LabelFormat format,
                                                                        const nlohmann::json& label);
-/// The first group of one of these names, or null.
-const nlohmann::json* labelGroup(LabelFormat format, const nlohmann::json& label,
-                                 std::initializer_list<std::string_view> names);
-/// A value of one of these groups, or, without groups, of the label itself.
+/// The value of the first of these groups that has one, or null; of groups of one name the first.
 const nlohmann::json* labelItem(LabelFormat format, const nlohmann::json& label,
                                 std::initializer_list<std::string_view> groups,
                                 std::string_view key);

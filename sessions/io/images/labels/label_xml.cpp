@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/io/images/gdal_memory.h"
 #include "sessions/io/images/labels/label_values.h"
 
@@ -92,28 +93,27 @@ std::string remarkOf(std::size_t count, const Array& read, const json& tree) {
          (id ? " '" + *id + "'" : "") + " is read";
 }
 
-XmlLabel readProduct(const std::filesystem::path& file, CPLXMLNode* product) {
+std::string readProduct(CPLXMLNode* product, LabelFiles& files) {
   const std::vector<Array> arrays = arraysOf(product);
-  if (arrays.empty()) throw InputError(file, "the PDS4 label describes no array of pixels");
+  if (arrays.empty()) throw InputError(files.file, "the PDS4 label describes no array of pixels");
   auto read =
       std::find_if(arrays.begin(), arrays.end(), [](const Array& a) { return a.isImage(); });
   if (read == arrays.end()) read = arrays.begin();
   keepOnly(read->area, product, isArea);
   keepOnly(read->node, read->area, isArray);
-  XmlLabel label;
-  label.tree = std::make_shared<const json>(treeOf(file, product));
-  const json* area = labelMember(label.tree.get(), kArea);
+  files.elements = std::make_shared<const json>(treeOf(files.file, product));
+  const json* area = labelMember(files.elements.get(), kArea);
   const auto name = labelText(labelPath(area, {"File", "file_name"}));
-  if (!name) throw InputError(file, "the PDS4 label names no file of its pixels");
-  label.file_name = *name;
+  if (!name) throw InputError(files.file, "the PDS4 label names no file of its pixels");
   // GDAL would turn the lines of an image that is displayed from bottom to top.
   keepOnly(read->area, product, isElement);
   char* const xml = CPLSerializeXMLTree(product);
-  label.text = xml == nullptr ? "" : xml;
+  const std::string_view text = xml == nullptr ? "" : xml;
+  files.rewritten.assign(text.begin(), text.end());
   CPLFree(xml);
   if (arrays.size() > 1)
-    label.remark = remarkOf(arrays.size(), *read, *labelMember(area, nameOf(read->node)));
-  return label;
+    files.remark = remarkOf(arrays.size(), *read, *labelMember(area, nameOf(read->node)));
+  return *name;
 }
 
 }  // namespace
@@ -122,15 +122,16 @@ bool isXmlLabel(std::string_view text) {
   return skipBlanks(text).starts_with('<') && text.find(kProduct) != std::string_view::npos;
 }
 
-XmlLabel readXmlLabel(const std::filesystem::path& file, std::string_view text) {
+std::string readXmlLabel(LabelFiles& files) {
   const GdalQuiet quiet;
-  CPLXMLNode* root = CPLParseXMLString(std::string(text).c_str());
-  if (root == nullptr) throw InputError(file, "the PDS4 label is not well-formed XML");
+  const std::string text(asText(files.parts.front().bytes));
+  CPLXMLNode* root = CPLParseXMLString(text.c_str());
+  if (root == nullptr) throw InputError(files.file, "the PDS4 label is not well-formed XML");
   const std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)> owner(root, CPLDestroyXMLNode);
   CPLStripXMLNamespace(root, nullptr, TRUE);
   for (CPLXMLNode* node = root; node != nullptr; node = node->psNext)
-    if (isElement(node) && nameOf(node) == kProduct) return readProduct(file, node);
-  throw InputError(file, "the PDS4 label has no Product_Observational");
+    if (isElement(node) && nameOf(node) == kProduct) return readProduct(node, files);
+  throw InputError(files.file, "the PDS4 label has no Product_Observational");
 }
 
 }  // namespace boresight::sessions

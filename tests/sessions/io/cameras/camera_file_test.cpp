@@ -146,7 +146,7 @@ TEST_F(ReadCamera, WrittenCamera_IsReadBackExactly) {
     Camera camera = test::randomCamera(random, static_cast<CameraModel>(i % 3));
     if (i % 2 == 0) std::fill(camera.distortion.begin() + 5, camera.distortion.end(), 0.0);
     ASSERT_EQ(prepareCamera(camera), Status::kOk);
-    writeCamera(folder_ / "camera.json", camera);
+    writeCamera(folder_ / "camera.json", {camera});
     EXPECT_EQ(readCamera(folder_ / "camera.json"), camera);
   }
 }
@@ -204,7 +204,7 @@ TEST_P(CahvCamera, ReadAndWritten_ProjectsByTheVectorFormulaInItsReferenceFrame)
     file = readCameraFile(folder_ / "again.json");
   }
   // Without its reference it is given in its own frame, equal to the bit.
-  writeCamera(folder_ / "own.json", camera);
+  writeCamera(folder_ / "own.json", {camera});
   const CameraFile own = readCameraFile(folder_ / "own.json");
   EXPECT_EQ(own.camera, camera);
   EXPECT_EQ(own.reference->frame.name, "CAMERA");

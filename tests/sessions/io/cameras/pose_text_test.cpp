@@ -39,7 +39,7 @@ TEST(PoseText, ShowsQuaternionsWithWNotNegative) {
 TEST(ParsePose, OrderDirectionAndUnit_AreApplied) {
   // A quarter turn about z, then 1, 2, 3 mm.
   PoseReading reading;
-  reading.unit = LengthUnit::kMillimetre;
+  reading.millimetres = true;
   const std::string rows = "0 -1 0 1; 1 0 0 2; 0 0 1 3; 0 0 0 1";
   const ParsedPose plain = parsePose(rows, reading);
   ASSERT_TRUE(plain.valid) << plain.problem;
@@ -48,8 +48,8 @@ TEST(ParsePose, OrderDirectionAndUnit_AreApplied) {
 
   const std::string columns = "0 1 0 0, -1 0 0 0, 0 0 1 0, 1 2 3 1";
   EXPECT_FALSE(parsePose(columns, reading).valid);
-  EXPECT_EQ(guessReading(columns).matrix_order, MatrixOrder::kColumnMajor);
-  reading.matrix_order = MatrixOrder::kColumnMajor;
+  EXPECT_TRUE(guessReading(columns).column_major);
+  reading.column_major = true;
   const auto expectRead = [&](const std::string& text, const Pose& expected, double rotation_rad) {
     EXPECT_THAT(parsePose(text, reading).camera_from_station,
                 test::poseNear(expected, rotation_rad, 1e-12));
@@ -58,15 +58,15 @@ TEST(ParsePose, OrderDirectionAndUnit_AreApplied) {
   expectRead(columns, pose, 1e-12);
   expectRead("0 1 0  -1 0 0  0 0 1  1 2 3", pose, 1e-12);
 
-  reading.matrix_order = MatrixOrder::kRowMajor;
-  reading.direction = PoseDirection::kStationFromCamera;
+  reading.column_major = false;
+  reading.station_from_camera = true;
   expectRead(rows, pose.inverse(), 1e-12);
 
-  reading.direction = PoseDirection::kCameraFromStation;
+  reading.station_from_camera = false;
   const std::string half = std::to_string(std::sqrt(0.5));
-  reading.quaternion_order = QuaternionOrder::kXyzw;
+  reading.xyzw = true;
   expectRead("0 0 " + half + " " + half + " 1 2 3", pose, 1e-6);
-  reading.quaternion_order = QuaternionOrder::kWxyz;
+  reading.xyzw = false;
   expectRead(half + " 0 0 " + half + " 1 2 3", pose, 1e-6);
   expectRead("0 0 90 1e0 +2 3", pose, 1e-12);
 }

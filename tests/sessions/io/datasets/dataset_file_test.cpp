@@ -106,7 +106,7 @@ TEST_F(ReadDataset, ReadsStationsInBothForms) {
   EXPECT_EQ(os.parts[1].state.role, PartRole::kOccludes);
   EXPECT_EQ(os.parts[1].mesh_unit, "");
   EXPECT_FALSE(os.feature_size_m.has_value());
-  EXPECT_EQ(dataset.cameras.at("left").width, 8);
+  EXPECT_EQ(dataset.cameras.at("left").camera.width, 8);
 }
 
 TEST_F(ReadDataset, CasesHaveTheMembersOfTheirStationAndTheDatasetUnlessTheyStateTheirOwn) {
@@ -135,7 +135,7 @@ TEST_F(ReadDataset, CasesHaveTheMembersOfTheirStationAndTheDatasetUnlessTheyStat
 TEST_F(ReadDataset, AlbedosAndSigmasOfMeshCameraAndTruth_AreRead) {
   const Dataset unstated = readSample();
   EXPECT_FALSE(unstated.stations.at("bc").mesh_scale_sigma);
-  EXPECT_TRUE(unstated.calibration_sigmas.empty());
+  EXPECT_FALSE(unstated.cameras.at("left").calibration_sigma);
   EXPECT_FALSE(unstated.findCase("b")->truth_covariance) << "exact";
   const Dataset dataset = read(
       changed(sampleDataset(),
@@ -151,7 +151,7 @@ TEST_F(ReadDataset, AlbedosAndSigmasOfMeshCameraAndTruth_AreRead) {
   EXPECT_EQ(dataset.stations.at("os").parts[0].albedo, std::nullopt);
   EXPECT_EQ(dataset.stations.at("os").parts[1].albedo, 0.0);
   EXPECT_EQ(dataset.stations.at("bc").mesh_scale_sigma, 0.001);
-  EXPECT_EQ(dataset.calibration_sigmas.at("left"), (CalibrationSigma{0.002, 0.5}));
+  EXPECT_EQ(dataset.cameras.at("left").calibration_sigma, (CalibrationSigma{0.002, 0.5}));
   EXPECT_EQ(dataset.findCase("b")->truth_covariance, Matrix6d(1e-6 * Matrix6d::Identity()));
 }
 

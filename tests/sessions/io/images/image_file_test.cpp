@@ -70,10 +70,12 @@ class ReadImage : public FolderTest {
   }
 };
 
-TEST(ToEightBit, IsTheRuleForEveryValueAndDepth) {
-  for (int n = 1; n <= 16; ++n)
+TEST(TableOfLevels, OfTheWholeRangeIsTheRuleForEveryValueAndDepth) {
+  for (int n = 1; n <= 16; ++n) {
+    const std::vector<std::uint8_t> table = tableOfLevels({0, (1 << n) - 1}, n);
     for (std::uint32_t v = 0; v < (1u << n); ++v)
-      ASSERT_EQ(toEightBit(v, n), byRule(v, n)) << "v " << v << " n " << n;
+      ASSERT_EQ(table[v], byRule(v, n)) << "v " << v << " n " << n;
+  }
 }
 
 /// Against the luma of OpenCV.
@@ -114,7 +116,7 @@ TEST_F(ReadImage, PixelsOfEveryKind_BecomeGrayByTheRuleAndKeepTheirColoursAndSam
       EXPECT_EQ(samples.file_sha256, image.file_sha256);
       ASSERT_EQ(samples.values.size(), image.pixels.size());
       for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        ASSERT_EQ(toEightBit(samples.values[i], depth), image.pixels[i]);
+        ASSERT_EQ(byRule(samples.values[i], depth), image.pixels[i]);
     }
   const cv::Mat twelve = twelveBits();
   const GrayImage stated = read(encoded(twelve, ".png"), {12});

@@ -27,17 +27,23 @@ std::vector<Face> soup(std::int32_t triangles) {
   return faces;
 }
 
+Mesh welded(const std::vector<Vector3f>& vertices, const std::vector<Face>& faces) {
+  Mesh mesh{vertices, faces, {}};
+  weldMesh(mesh);
+  return mesh;
+}
+
 TEST(WeldMesh, JoinsZerosOfEitherSignAndWhatRoundingSeparatedButNotNeighbours) {
   const float step = std::numeric_limits<float>::epsilon();
   const std::vector<Vector3f> vertices = {{1, 0, 0},        {0, 1, 0}, {0, 0, 1},
                                           {1 + step, 0, 0}, {0, 1, 0}, {1 + 40 * step, 0, 0}};
-  const WeldedMesh welded = weldMesh(vertices, soup(2));
-  EXPECT_EQ(welded.vertices.size(), 4u);
-  EXPECT_EQ(welded.faces[1].vertex[0], 0);
-  EXPECT_EQ(welded.faces[1].vertex[2], 3);
+  const Mesh mesh = welded(vertices, soup(2));
+  EXPECT_EQ(mesh.vertices_m.size(), 4u);
+  EXPECT_EQ(mesh.faces[1].vertex[0], 0);
+  EXPECT_EQ(mesh.faces[1].vertex[2], 3);
   const std::vector<Vector3f> zeros = {{0.0F, 0, 0},  {1, 0, 0}, {0, 1, 0},
                                        {-0.0F, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
-  EXPECT_EQ(weldMesh(zeros, soup(2)).vertices.size(), 4u);
+  EXPECT_EQ(welded(zeros, soup(2)).vertices_m.size(), 4u);
 }
 
 /// Against comparing every pair: the grid must not lose a neighbour across its cells' borders.
@@ -58,8 +64,8 @@ TEST(WeldMesh, FindsTheSameVerticesAsComparingEveryPair) {
         faces.push_back({{i, i + 6, i + 12}});
     const float tolerance = weldTolerance(vertices);
     std::vector<Vector3f> kept;
-    const WeldedMesh welded = weldMesh(vertices, faces);
-    ASSERT_EQ(welded.faces.size(), faces.size());
+    const Mesh mesh = welded(vertices, faces);
+    ASSERT_EQ(mesh.faces.size(), faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f)
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const Vector3f& vertex = vertices[static_cast<std::size_t>(faces[f].vertex[corner])];
@@ -68,10 +74,10 @@ TEST(WeldMesh, FindsTheSameVerticesAsComparingEveryPair) {
                !((kept[expected] - vertex).cwiseAbs().maxCoeff() <= tolerance))
           ++expected;
         if (expected == kept.size()) kept.push_back(vertex);
-        ASSERT_EQ(static_cast<std::size_t>(welded.faces[f].vertex[corner]), expected);
+        ASSERT_EQ(static_cast<std::size_t>(mesh.faces[f].vertex[corner]), expected);
       }
-    EXPECT_EQ(welded.vertices, kept);
-    EXPECT_EQ(welded.merged_vertices, static_cast<std::int64_t>(3 * faces.size() - kept.size()));
+    EXPECT_EQ(mesh.vertices_m, kept);
+    EXPECT_EQ(mesh.info.merged_vertices, static_cast<std::int64_t>(3 * faces.size() - kept.size()));
   }
 }
 

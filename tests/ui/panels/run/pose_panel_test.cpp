@@ -30,7 +30,7 @@ class PosePanelTest : public ::testing::Test {
     state_.setCase(example);
     state_.setSnapshot(test::exampleRun());
     QObject::connect(
-        &panel_, &PosePanel::gestureFinished,
+        &panel_.nudgeController(), &NudgeController::gestureFinished,
         [this](const Pose& before, const Pose& after) { gestures_.emplace_back(before, after); });
     panel_.resize(700, 900);
     panel_.show();

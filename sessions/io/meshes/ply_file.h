@@ -39,8 +39,31 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, std::span<const std::
 /// Bytes of a value; 0: not a PLY type.
 int plyTypeSize(std::string_view type);
 
-/// Takes the next word from the text; empty at its end.
-std::string_view takeWord(std::string_view& text);
+/// The values of a body, one after the other. InputError where the file is truncated.
+class PlyValues {
+ public:
+  /// All three must outlive this object.
+  PlyValues(const std::filesystem::path& file, const PlyHeader& header,
+            std::span<const std::uint8_t> bytes)
+      : file_(file), encoding_(header.encoding), body_(bytes.subspan(header.body)), rest_(body_) {}
+
+  /// Number of values of an item's property: 1, or the length of a list, which is read.
+  std::uint64_t count(const PlyElement& element, std::uint64_t item, const PlyProperty& property);
+  /// NaN for a text that is not a number.
+  double next(const std::string& type);
+  void skip(std::uint64_t values, const std::string& type);
+  /// Bytes behind the last value.
+  std::span<const std::uint8_t> rest() const { return rest_; }
+
+ private:
+  std::string_view word();                      ///< of an ASCII file
+  std::uint64_t bits(const std::string& type);  ///< of a binary file
+
+  const std::filesystem::path& file_;
+  PlyEncoding encoding_;
+  std::span<const std::uint8_t> body_;
+  std::span<const std::uint8_t> rest_;
+};
 
 /// Whether importers cannot read the mesh: triangle strips, or faces before vertices.
 bool needsPlainPly(const PlyHeader& header);
