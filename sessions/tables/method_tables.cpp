@@ -151,7 +151,7 @@ std::vector<TableCell> errorRow(const MethodFigures& row) {
       row.station,
       rangeText(row.far),
       row.method,
-      row.images,
+      row.cases,
       row.runs,
       leastCell(row.completed),
       leastCell(row.success),
@@ -248,14 +248,14 @@ std::vector<RunGroup> runGroups(std::span<const RunResult> runs) {
 
 MethodFigures figuresOf(std::span<const RunResult* const> runs) {
   MethodFigures figures;
-  std::set<std::string> images;
+  std::set<std::string> cases;
   std::vector<double> iterations;
   for (const RunResult* run : runs) {
-    images.insert(run->case_id);
+    cases.insert(run->case_id);
     count(*run, figures);
     if (run->completed) iterations.push_back(run->iterations);
   }
-  figures.images = static_cast<std::int64_t>(images.size());
+  figures.cases = static_cast<std::int64_t>(cases.size());
   figures.completed.runs = figures.completed_with_limit.runs = figures.runs;
   figures.completed_with_limit.count = figures.completed.count + figures.at_limit;
   figures.false_positives.runs = figures.success_with_limit.runs = figures.success.runs;
@@ -320,7 +320,7 @@ std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs) {
 Table errorTable(std::span<const RunResult> runs, bool with_paper) {
   Table table{"errors",
               "Errors per station and method, over completed runs",
-              groupColumns({{"images"},
+              groupColumns({{"cases"},
                             {"runs"},
                             {"completed %", kLeast, 1},
                             {"success %", kLeast, 1},

@@ -39,8 +39,8 @@ inline constexpr const char* kBoundsNote =
 struct MethodFigures {
   std::string station;
   bool far = false;
-  std::string method;       ///< "seed": the errors that the runs began with
-  std::int64_t images = 0;  ///< different cases; several seeds may start from each
+  std::string method;      ///< "seed": the errors that the runs began with
+  std::int64_t cases = 0;  ///< several seeds of `--reseed` may start from each
   std::int64_t runs = 0;
   CountedShare completed;
   CountedShare success;          ///< of runs with truth and requirement

@@ -60,7 +60,7 @@ void addStrata(const RunGroup& group, const std::string& kind, const Strata& str
   for (const auto& [name, runs] : strata) {
     const MethodFigures figures = figuresOf(runs);
     table.rows.push_back({group.station, rangeText(group.far), group.method, kind, name,
-                          figures.images, figures.runs, leastCell(figures.completed),
+                          figures.cases, figures.runs, leastCell(figures.completed),
                           leastCell(figures.success), mostCell(figures.false_positives)});
     for (const std::size_t column : {std::size_t{1}, std::size_t{2}}) {
       const Statistics& error = figures.error[column];
@@ -78,7 +78,7 @@ Table strataTable(std::span<const RunResult> runs) {
               "Runs by the conditions of their images",
               groupColumns({{"stratum"},
                             {"value"},
-                            {"images"},
+                            {"cases"},
                             {"runs"},
                             {"completed %", kLeast, 1},
                             {"success %", kLeast, 1},

@@ -45,7 +45,7 @@ QueueLinks::QueueLinks(WindowParts& parts, const WindowDocks& docks, QObject* pa
           &docks.queue, &QueuePanel::setInSight);
   parts_.state.onChange(ViewChange::kSnapshot, this, &QueueLinks::goThere);
   connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
-    if (wanted_ && wanted_->case_id != id) wanted_.reset();  // the operator went elsewhere
+    if (wanted_ && wanted_->case_id != id) wanted_.reset();  // another case was chosen meanwhile
   });
 }
 

@@ -37,7 +37,7 @@ TEST(MethodFigures, AreThoseOfTheRuns) {
   const MethodFigures& ncc = rows[1];
   EXPECT_EQ(ncc.method, "ncc");
   EXPECT_EQ(ncc.runs, 4);
-  EXPECT_EQ(ncc.images, 4);
+  EXPECT_EQ(ncc.cases, 4);
   EXPECT_DOUBLE_EQ(*ncc.completed.percent(), 75.0);
   EXPECT_DOUBLE_EQ(*ncc.success.percent(), 25.0);
   EXPECT_EQ(ncc.false_positives.count, 2);
@@ -81,7 +81,7 @@ TEST(MethodFigures, StateBoundsOfClopperAndPearson) {
   std::vector<RunResult> runs;
   for (int i = 0; i < 59; ++i) runs.push_back(madeRun("bc-" + std::to_string(i % 7), "whs"));
   const MethodFigures figures = methodFigures(runs).back();
-  EXPECT_EQ(figures.images, 7);
+  EXPECT_EQ(figures.cases, 7);
   // 59 runs without a failure demonstrate 95 %: 0.05^(1 / 59) = 0.9505.
   EXPECT_NEAR(*figures.completed.leastPercent(), 95.05, 0.01);
   EXPECT_NEAR(*figures.success.leastPercent(), 95.05, 0.01);
