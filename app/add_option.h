@@ -16,14 +16,14 @@ CLI::Option* addOption(CLI::App& command, const std::string& name, const std::st
   return command.add_option(name, value, help)->type_name(type);
 }
 
-/// The same for the name of a file.
+/// Adds an option whose value is the name of a file.
 template <class Value>
 CLI::Option* addFile(CLI::App& command, const std::string& name, Value& value,
                      const std::string& help) {
   return addOption(command, name, "FILE", value, help);
 }
 
-/// An option with one of these values, or a list of them; the help shows its default.
+/// Adds an option that accepts only `choices`; a list accepts several. The help shows its default.
 template <class Value>
 CLI::Option* addChoice(CLI::App& command, const std::string& name, Value& value,
                        const std::vector<std::string>& choices, const std::string& help) {

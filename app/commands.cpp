@@ -42,7 +42,8 @@ void MethodArguments::addTo(CLI::App& command, bool several) {
 }
 
 bool MethodArguments::needsSetup() const {
-  return std::ranges::count(methods, sessions::kWhs) < std::ssize(methods);
+  return std::ranges::any_of(methods,
+                             [](const std::string& name) { return name != sessions::kWhs; });
 }
 
 sessions::MethodSetup MethodArguments::setup(const OptionArguments& options) const {

@@ -35,7 +35,7 @@ AddCommand addVerify, addViews, addReport, addQueue, addSolve, addRender, addCam
 AddCommand addOptions, addNew, addRun, addPack, addExport, addImport, addProblem, addBench;
 AddCommand addDocuments, addTrends, addCalibrate, addHandEye, addFollow;
 
-/// Adds a subcommand with its arguments, which declare themselves by `addTo`, live as long as the
+/// Adds a subcommand. `Arguments::addTo` adds its options; the arguments live as long as the
 /// subcommand and are passed to `run`.
 template <class Arguments>
 void addCommand(CLI::App& app, int& exit_code, const std::string& name, const std::string& help,
@@ -161,7 +161,7 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover = fal
 const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,
                                          const std::string& case_id);
 
-/// These cases, or all cases of the session without any. InputError as above.
+/// `case_ids`, or the ids of all cases if it is empty. InputError when the session lacks one.
 std::vector<std::string> requestedCases(const sessions::SessionDocument& document,
                                         const std::vector<std::string>& case_ids);
 

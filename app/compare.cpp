@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <tuple>
 
 #include "app/commands.h"
 #include "sessions/io/files/errors.h"
@@ -17,17 +16,17 @@ using sessions::InputError;
 using sessions::OnboardRecord;
 
 void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
-  using Limit = std::tuple<const char*, double*, double, const char*>;
-  for (const auto& [name, limit, most, help] :
-       {Limit("--found-px", &limits.found_px, 1e6,
-              "Largest distance of two template positions that count as equal, px at their level"),
-        Limit("--found-share", &limits.found_share, 1.0,
-              "Required share of equal template positions, 0 to 1"),
-        Limit("--inlier-share", &limits.inlier_share, 1.0,
-              "Required share of the inliers of either run that both have, 0 to 1"),
-        Limit("--sigmas", &limits.pose_sigmas, 1e6,
-              "Largest distance of the final poses, in sigmas of A's covariance")})
-    command.add_option(name, *limit, help)->check(numberIn(0.0, most))->capture_default_str();
+  const auto add = [&command](const char* name, double& limit, double most, const char* help) {
+    command.add_option(name, limit, help)->check(numberIn(0.0, most))->capture_default_str();
+  };
+  add("--found-px", limits.found_px, 1e6,
+      "Largest distance of two template positions that count as equal, px at their level");
+  add("--found-share", limits.found_share, 1.0,
+      "Required share of equal template positions, 0 to 1");
+  add("--inlier-share", limits.inlier_share, 1.0,
+      "Required share of the inliers of either run that both have, 0 to 1");
+  add("--sigmas", limits.pose_sigmas, 1e6,
+      "Largest distance of the final poses, in sigmas of A's covariance");
 }
 
 struct CompareArguments {

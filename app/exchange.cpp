@@ -8,7 +8,7 @@
 namespace boresight::app {
 namespace {
 
-/// What export and import have in common.
+/// Arguments that export and import share.
 struct ExchangeArguments {
   std::string session, colmap, bop, points;
   std::vector<std::string> cases;

@@ -34,7 +34,9 @@
 namespace boresight::app {
 namespace {
 
+using sessions::countText;
 using sessions::fixedText;
+using sessions::sizeText;
 using std::filesystem::path;
 
 /// Of a session, since the inputs of each are read.
@@ -46,15 +48,6 @@ void flag(const std::string& text) { line("! " + text); }
 std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
   return fixedText(vector.x(), decimals) + " " + fixedText(vector.y(), decimals) + " " +
          fixedText(vector.z(), decimals);
-}
-
-/// "1 case", "2 cases".
-std::string countText(std::size_t count, const std::string& text) {
-  return std::to_string(count) + " " + text + (count == 1 ? "" : "s");
-}
-
-std::string sizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
 }
 
 void flagAll(const std::vector<sessions::RedFlag>& flags) {
@@ -91,14 +84,14 @@ std::string symmetryText(const sessions::Symmetries& symmetries) {
 }
 
 void describeDataset(const sessions::Dataset& dataset) {
-  line(countText(dataset.cases.size(), "case") + ", " +
-       countText(dataset.stations.size(), "station") + ", " +
-       countText(dataset.cameras.size(), "camera"));
-  std::map<std::string, std::size_t> cases_of;
+  line(countText(std::ssize(dataset.cases), "case") + ", " +
+       countText(std::ssize(dataset.stations), "station") + ", " +
+       countText(std::ssize(dataset.cameras), "camera"));
+  std::map<std::string, std::int64_t> cases_of;
   for (const sessions::Case& dataset_case : dataset.cases) ++cases_of[dataset_case.station];
   for (const auto& [id, station] : dataset.stations) {
     line("station " + id + ": " + countText(cases_of[id], "case") + ", " +
-         countText(station.parts.size(), "part") +
+         countText(std::ssize(station.parts), "part") +
          (station.feature_size_m
               ? ", feature size " + fixedText(1e3 * *station.feature_size_m, 3) + " mm"
               : "") +
@@ -149,14 +142,15 @@ std::string rerunText(const sessions::RunRecord& run) {
          (run.rerun->from.empty() ? "" : ", continued from run " + run.rerun->from);
 }
 
-/// `before`: the case described before, whose files are not read again.
+/// `previous`: the case described last, or null; replaced by this case. Files that both share are
+/// read once.
 void describeCase(const sessions::SessionCase& session_case, const sessions::Session& session,
-                  const path& file, std::shared_ptr<const sessions::LoadedCase>& before) {
+                  const path& file, std::shared_ptr<const sessions::LoadedCase>& previous) {
   line("case " + session_case.id +
        (session_case.station.empty() ? "" : ", station " + session_case.station));
   try {
-    before = before ? reloadCase(*before, session_case) : sessions::loadCase(session_case);
-    const sessions::InputSheet sheet = sessions::inputSheet(*before);
+    previous = previous ? reloadCase(*previous, session_case) : sessions::loadCase(session_case);
+    const sessions::InputSheet sheet = sessions::inputSheet(*previous);
     for (const sessions::SheetLine& entry : sheet.lines)
       line("  " + entry.label + ": " + entry.value);
     flagAll(sheet.flags);
@@ -178,8 +172,9 @@ void describeCase(const sessions::SessionCase& session_case, const sessions::Ses
 void describeSession(const path& file) {
   const auto document = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
   const sessions::Session& session = document.session();
-  line(countText(session.cases.size(), "case") + ", " + countText(session.runs.size(), "run") +
-       ", profile " + session.profile + ", " + std::to_string(session.options.size()) +
+  line(countText(std::ssize(session.cases), "case") + ", " +
+       countText(std::ssize(session.runs), "run") + ", profile " + session.profile + ", " +
+       std::to_string(session.options.size()) +
        " options differ: " + sessions::toJson(session.options).dump());
   if (const auto holder = sessions::readLockFile(sessions::lockFileOf(file)))
     line((sessions::hasEnded(*holder) ? "was left open by " : "is open in ") + holder->text());
@@ -187,12 +182,12 @@ void describeSession(const path& file) {
   if (document.recovery())
     flag(std::to_string(document.recovery()->edits.size()) +
          " unsaved edits are in its journal, the last of " + document.recovery()->time);
-  std::shared_ptr<const sessions::LoadedCase> before;
+  std::shared_ptr<const sessions::LoadedCase> previous;
   const std::size_t described = std::min(session.cases.size(), kDescribedCases);
   for (std::size_t i = 0; i < described; ++i)
-    describeCase(*session.cases[i], session, file, before);
+    describeCase(*session.cases[i], session, file, previous);
   if (described < session.cases.size())
-    line("and " + countText(session.cases.size() - described, "more case") +
+    line("and " + countText(std::ssize(session.cases) - described, "more case") +
          ": whs queue lists them");
   for (const sessions::Finding& finding : sessions::checkInputs(session))
     if (finding.what == "run" || finding.what == "onboard_record") flag(finding.text);
@@ -318,8 +313,8 @@ void describeRig(const path& file) {
   for (const sessions::AnnotatedView& view : sessions::readRig(file)) {
     line("view " + view.name + ": camera of " + std::to_string(view.camera.width) + " x " +
          std::to_string(view.camera.height) + " px, " +
-         countText(view.annotations.points.size(), "point") + ", " +
-         countText(view.annotations.lines.size(), "line"));
+         countText(std::ssize(view.annotations.points), "point") + ", " +
+         countText(std::ssize(view.annotations.lines), "line"));
     printPose(view.camera_from_rig, "camera_from_rig");
   }
 }
@@ -399,8 +394,7 @@ void describeLabel(const sessions::ImageLabel& label) {
 void describeImage(const path& file) {
   const sessions::GrayImage image = sessions::readImage(file);
   line(image.container + ", " + sizeText(image.width, image.height) + " px, " +
-       countText(static_cast<std::size_t>(image.channels), "channel") + ", " +
-       std::to_string(image.sample_bits) + " bit");
+       countText(image.channels, "channel") + ", " + std::to_string(image.sample_bits) + " bit");
   line("to 8 bit: " + image.rule);
   const sessions::ImageSheet sheet = sessions::imageSheet(image);
   line("gray " + std::to_string(sheet.lowest_gray) + " .. " + std::to_string(sheet.highest_gray) +

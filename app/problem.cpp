@@ -57,8 +57,7 @@ int writeProblem(const ProblemArguments& arguments) {
   if (!from_dataset) requireFilesNamed(arguments);
   const ReadCase input = from_dataset ? readCaseOfDataset(arguments) : readCase(arguments);
   const sessions::LoadedCase& loaded = *input.loaded;
-  for (const std::string& file : {arguments.out, arguments.image_out})
-    sessions::requireWritable(file);
+  requireWritable({arguments.out, arguments.image_out});
   if (from_dataset)
     requireRunnable(loaded, arguments.dataset, arguments.dataset);
   else

@@ -19,7 +19,7 @@ struct SolveArguments {
   bool alone = false;
   bool robust = false;
 
-  /// Three sources of what is solved, each of which excludes the others.
+  /// Points with a camera, a rig, or a case of a session: each excludes the other two.
   void addTo(CLI::App& command) {
     CLI::Option* from_points = addFile(command, "--points", points, "points.json or points.csv");
     CLI::Option* from_camera = addFile(command, "--camera", camera, kCameraHelp);
@@ -59,7 +59,7 @@ std::vector<sessions::AnnotatedView> readViews(const SolveArguments& arguments) 
   return {view};
 }
 
-/// Annotations in files of their own, without a mesh: the station is known from them alone.
+/// Solves annotations from files, without a mesh or a session.
 sessions::CaseAnnotationsSolution solveFiles(const SolveArguments& arguments) {
   sessions::CaseAnnotationsSolution solved;
   solved.annotations.views = readViews(arguments);

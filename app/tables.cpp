@@ -37,7 +37,7 @@ struct TablesArguments {
     addFile(command, "--against", against,
             "Compares RESULTS (before) with these results (after), run by run");
     command.add_flag("--all", all, "With --against: also lists unchanged runs");
-    command
+    command  // not addChoice: the help would show the empty default as []
         .add_option("--table", tables,
                     "Tables to print: errors, success, strata, tolerance, times (default: all)")
         ->check(CLI::IsMember({"errors", "success", "strata", "tolerance", "times"}));

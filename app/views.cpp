@@ -103,16 +103,16 @@ void printRig(const RigRun& run) {
     print(std::string("  ") + statusText(result.fault));
   for (std::size_t v = 0; v < run.cases.size(); ++v) {
     const ViewReport& view = result.views[v];
-    const auto error = run.errorOf(v);
+    std::string error_text;
+    if (const auto error = run.errorOf(v))
+      error_text = std::string("; error at the ") +
+                   sessions::judgedPlace(run.cases[v]->camera_from_end_effector) + ": " +
+                   errorText(*error);
     print("  " + run.cases[v]->id + " (" + run.cases[v]->camera +
           "): " + localizationStatusText(view.status) + ", " + std::to_string(view.inliers) +
           " of " + std::to_string(view.correspondences) + " matches agree, " +
           std::to_string(view.edges_used) + " edge points, edge support " +
-          sessions::percentText(view.support.share(), 1) +
-          (error ? std::string("; error at the ") +
-                       sessions::judgedPlace(run.cases[v]->camera_from_end_effector) + ": " +
-                       errorText(*error)
-                 : ""));
+          sessions::percentText(view.support.share(), 1) + error_text);
   }
 }
 

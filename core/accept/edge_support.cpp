@@ -16,7 +16,7 @@ constexpr std::int32_t kMaxPlaces = 3000;  ///< enough for a share to within 1 %
 /// search radius in use, and not a multiple of a power of two, which a raster may have.
 constexpr int kDisplacements[4][2] = {{11, 0}, {0, 11}, {-11, 0}, {0, -11}};
 
-/// A pixel of the render displaced in one of the four directions; -1: in its place.
+/// A pixel moved by kDisplacements[direction]; unmoved for direction -1.
 EdgePixel displaced(EdgePixel pixel, int direction) {
   if (direction < 0) return pixel;
   pixel.x = static_cast<std::int16_t>(pixel.x + kDisplacements[direction][0]);

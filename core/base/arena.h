@@ -7,6 +7,7 @@
 #include <new>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 namespace boresight {
 
@@ -20,10 +21,14 @@ class Arena {
   /// Allocates from the block, which must outlive the allocations.
   explicit Arena(std::span<std::byte> block) : block_(block) {}
 
-  /// That number of value-initialized objects; empty when the block is exhausted (then
+  /// `wanted` value-initialized objects; empty when the block is exhausted (then
   /// `exhausted()`), or when the arena only counts.
   template <class T, std::integral Count>
   std::span<T> allocate(Count wanted) {
+    if (std::cmp_less(wanted, 0)) {
+      exhausted_ = true;
+      return {};
+    }
     const auto count = static_cast<std::size_t>(wanted);
     static_assert(std::is_trivially_destructible_v<T>);
     static_assert(alignof(T) <= kAlignment);

@@ -17,15 +17,16 @@ class FixedList {
   void add(const Item& item) {
     if (count_ < kCapacity) items_[static_cast<std::size_t>(count_++)] = item;
   }
-  /// Inserts an item before place `index`; the last item of a full list is dropped.
+  /// Inserts an item before item `index`, 0 ... size(); the last item of a full list is dropped.
+  /// The item must not be one of this list.
   void insert(int index, const Item& item) {
     if (index >= kCapacity) return;
-    count_ = count_ < kCapacity ? count_ + 1 : kCapacity;
+    if (count_ < kCapacity) ++count_;
     for (int i = count_ - 1; i > index; --i) (*this)[i] = (*this)[i - 1];
     (*this)[index] = item;
   }
-  /// Removes all but the first `count` items.
-  void keepFirst(int count) { count_ = count; }
+  /// Keeps the first `count` items, if there are more.
+  void keepFirst(int count) { count_ = count < count_ ? count : count_; }
   /// Number of items.
   int size() const { return count_; }
   /// The items in the order of add().

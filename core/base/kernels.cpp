@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/kernels.h"
 
-#include "core/base/enum_name.h"
-
 namespace boresight {
 
 const char* kernelsName(Kernels kernels) {
-  return enumName<Kernels::kSse2>(kernels, {"portable", "sse2"});
+  switch (kernels) {
+    case Kernels::kPortable:
+      return "portable";
+    case Kernels::kSse2:
+      return "sse2";
+  }
+  return "unknown";
 }
 
 bool kernelsAvailable(Kernels kernels) {

@@ -1,16 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/status.h"
 
-#include "core/base/enum_name.h"
-
 namespace boresight {
 
 const char* statusText(Status status) {
-  return enumName<kLastStatus>(
-      status,
-      {"ok", "invalid_option", "invalid_image", "invalid_camera", "invalid_mesh", "invalid_pose",
-       "arena_too_small", "capacity_exceeded", "too_few_edges", "too_few_templates",
-       "too_few_points", "degenerate", "no_consensus", "too_many_layers", "memory_changed"});
+  switch (status) {
+    case Status::kOk:
+      return "ok";
+    case Status::kInvalidOption:
+      return "invalid_option";
+    case Status::kInvalidImage:
+      return "invalid_image";
+    case Status::kInvalidCamera:
+      return "invalid_camera";
+    case Status::kInvalidMesh:
+      return "invalid_mesh";
+    case Status::kInvalidPose:
+      return "invalid_pose";
+    case Status::kArenaTooSmall:
+      return "arena_too_small";
+    case Status::kCapacityExceeded:
+      return "capacity_exceeded";
+    case Status::kTooFewEdges:
+      return "too_few_edges";
+    case Status::kTooFewTemplates:
+      return "too_few_templates";
+    case Status::kTooFewPoints:
+      return "too_few_points";
+    case Status::kDegenerate:
+      return "degenerate";
+    case Status::kNoConsensus:
+      return "no_consensus";
+    case Status::kTooManyLayers:
+      return "too_many_layers";
+    case Status::kMemoryChanged:
+      return "memory_changed";
+  }
+  return "unknown";
 }
 
 }  // namespace boresight

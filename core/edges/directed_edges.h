@@ -66,7 +66,10 @@ class DirectedEdgeDetector {
   /// Rows of gradients that are held: those of the mean and the one before.
   static constexpr int kHeldRows = 2 * kMeanReach + 2;
 
-  std::uint16_t* magnitudes(int y) const { return magnitude_.data() + y % kHeldRows * width_; }
+  std::uint16_t* magnitudes(int y) { return magnitude_.data() + y % kHeldRows * width_; }
+  const std::uint16_t* magnitudes(int y) const {
+    return magnitude_.data() + y % kHeldRows * width_;
+  }
   void takeRow(const SmallImage& image, int y, DirectedEdges& edges);
   void takeChannel(const SmallImage& image, int y, DirectedEdges& edges);
   void addToColumns(int y, bool add);

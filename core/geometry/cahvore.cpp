@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/geometry/distortion.h"
 #include "core/geometry/polynomial.h"
+#include "core/geometry/root_between.h"
 
 namespace boresight {
 namespace {
@@ -131,14 +132,24 @@ bool isAhead(const Eigen::Vector3d& point) {
   return point.z() > 0.0 && point.head<2>().squaredNorm() <= limit * limit;
 }
 
+/// The distorted direction on the plane z = 1; false outside the valid field.
+bool onImagePlane(const Camera& camera, const Eigen::Vector3d& distorted, Eigen::Vector2d& q) {
+  if (!(distorted.z() > 0.0)) return false;
+  q = distorted.head<2>() / distorted.z();
+  const double limit = camera.model == CameraModel::kCahv ? camera.valid_radius : kLargestRadius;
+  return q.squaredNorm() <= limit * limit;
+}
+
+Eigen::Vector2d pixelAt(const Camera& camera, const Eigen::Vector2d& q) {
+  return {camera.fx * q.x() + camera.cx,
+          camera.cahv.skew_px * q.x() + camera.fy * q.y() + camera.cy};
+}
+
 /// Pixel of a distorted direction; false outside the valid field.
 bool pixelOf(const Camera& camera, const Eigen::Vector3d& distorted, Eigen::Vector2d& pixel) {
-  if (!(distorted.z() > 0.0)) return false;
-  const Eigen::Vector2d q = distorted.head<2>() / distorted.z();
-  const double limit = camera.model == CameraModel::kCahv ? camera.valid_radius : kLargestRadius;
-  if (!(q.squaredNorm() <= limit * limit)) return false;
-  pixel = {camera.fx * q.x() + camera.cx,
-           camera.cahv.skew_px * q.x() + camera.fy * q.y() + camera.cy};
+  Eigen::Vector2d q;
+  if (!onImagePlane(camera, distorted, q)) return false;
+  pixel = pixelAt(camera, q);
   return true;
 }
 
@@ -294,8 +305,9 @@ bool projectCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vect
     distorted = distortedAt(camera, split, theta);
     by_point = pupilJacobian(camera, split, theta);
   }
-  if (!pixelOf(camera, distorted, pixel)) return false;
-  const Eigen::Vector2d q = distorted.head<2>() / distorted.z();
+  Eigen::Vector2d q;
+  if (!onImagePlane(camera, distorted, q)) return false;
+  pixel = pixelAt(camera, q);
   const double inverse_z = 1.0 / distorted.z();
   for (int k = 0; k < 3; ++k) {
     const double x_by_point = (by_point(0, k) - q[0] * by_point(2, k)) * inverse_z;

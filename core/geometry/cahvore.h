@@ -7,9 +7,9 @@
 
 namespace boresight {
 
-/// The lens of the CAHV family between a point and its pixel by the distorted direction
-/// q = d'_xy / d'_z, with pixel = (fx q_x + cx, skew q_x + fy q_y + cy): Gennery, "Generalized
-/// Camera Calibration Including Fish-Eye Lenses", IJCV 2006. A point d is split by the optical axis
+/// Lenses of the CAHV family: a point has the distorted direction q = d'_xy / d'_z, and q the pixel
+/// (fx q_x + cx, skew q_x + fy q_y + cy). Gennery, "Generalized Camera Calibration Including
+/// Fish-Eye Lenses", IJCV 2006. A point d is split by the optical axis
 /// O into d = w O + lam.
 ///   CAHV:    d' = d
 ///   CAHVOR:  d' = d + mu lam,               mu = r0 + r1 tau + r2 tau^2, tau = |lam|^2 / w^2

@@ -33,6 +33,63 @@ bool plausibleLens(const CahvLens& lens) {
          within(lens.skew_px, kLargestPixel) && within(lens.linearity, kLargestLinearity);
 }
 
+/// The place q where the lens shows the direction p = (x/z, y/z), both on the plane z = 1. False
+/// outside the valid field, and for the CAHV family, which has functions of its own.
+bool distort(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q) {
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      q = p;
+      return inValidRadius(camera, p);
+    case CameraModel::kBrownConrady:
+      return distortBrownConrady(camera, p, q);
+    case CameraModel::kKannalaBrandt:
+      return distortKannalaBrandt(camera, p, q);
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      break;  // cahvore.h
+  }
+  return false;
+}
+
+/// The same with d q / d p.
+bool distort(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q,
+             Eigen::Matrix2d& q_by_p) {
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      q = p;
+      q_by_p.setIdentity();
+      return inValidRadius(camera, p);
+    case CameraModel::kBrownConrady:
+      return distortBrownConrady(camera, p, q, q_by_p);
+    case CameraModel::kKannalaBrandt:
+      return distortKannalaBrandt(camera, p, q, q_by_p);
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      break;  // cahvore.h
+  }
+  return false;
+}
+
+/// The inverse of `distort`.
+bool undistort(const Camera& camera, const Eigen::Vector2d& q, Eigen::Vector2d& p) {
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+      p = q;
+      return inValidRadius(camera, q);
+    case CameraModel::kBrownConrady:
+      return undistortBrownConrady(camera, q, p);
+    case CameraModel::kKannalaBrandt:
+      return undistortKannalaBrandt(camera, q, p);
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      break;  // cahvore.h
+  }
+  return false;
+}
+
 }  // namespace
 
 Status prepareCamera(Camera& camera) {
@@ -73,12 +130,8 @@ bool project(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
   if (!(point_in_camera_m.z() > 0.0)) return false;
   const double inverse_z = 1.0 / point_in_camera_m.z();
   const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
-  Eigen::Vector2d q = p;
-  const bool valid = camera.model == CameraModel::kBrownConrady ? distortBrownConrady(camera, p, q)
-                     : camera.model == CameraModel::kKannalaBrandt
-                         ? distortKannalaBrandt(camera, p, q)
-                         : inValidRadius(camera, p);
-  if (!valid) return false;
+  Eigen::Vector2d q;
+  if (!distort(camera, p, q)) return false;
   pixel.x() = camera.fx * q.x() + camera.cx;
   pixel.y() = camera.fy * q.y() + camera.cy;
   return true;
@@ -90,13 +143,9 @@ bool projectWithJacobian(const Camera& camera, const Eigen::Vector3d& point_in_c
   if (!(point_in_camera_m.z() > 0.0)) return false;
   const double inverse_z = 1.0 / point_in_camera_m.z();
   const Eigen::Vector2d p(point_in_camera_m.x() * inverse_z, point_in_camera_m.y() * inverse_z);
-  Eigen::Vector2d q = p;
-  Eigen::Matrix2d q_by_p = Eigen::Matrix2d::Identity();
-  const bool valid =
-      camera.model == CameraModel::kBrownConrady    ? distortBrownConrady(camera, p, q, q_by_p)
-      : camera.model == CameraModel::kKannalaBrandt ? distortKannalaBrandt(camera, p, q, q_by_p)
-                                                    : inValidRadius(camera, p);
-  if (!valid) return false;
+  Eigen::Vector2d q;
+  Eigen::Matrix2d q_by_p;
+  if (!distort(camera, p, q, q_by_p)) return false;
   pixel.x() = camera.fx * q.x() + camera.cx;
   pixel.y() = camera.fy * q.y() + camera.cy;
   // d p / d point = [1 0 -p_x; 0 1 -p_y] / z.
@@ -117,12 +166,8 @@ bool unproject(const Camera& camera, const Eigen::Vector2d& pixel, Eigen::Vector
     return true;
   }
   const Eigen::Vector2d q((pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy);
-  Eigen::Vector2d p = q;
-  const bool valid =
-      camera.model == CameraModel::kBrownConrady    ? undistortBrownConrady(camera, q, p)
-      : camera.model == CameraModel::kKannalaBrandt ? undistortKannalaBrandt(camera, q, p)
-                                                    : inValidRadius(camera, p);
-  if (!valid) return false;
+  Eigen::Vector2d p;
+  if (!undistort(camera, q, p)) return false;
   ray = {p.x(), p.y(), 1.0};
   return true;
 }

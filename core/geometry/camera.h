@@ -120,7 +120,7 @@ Status cutToFrame(int first_x, int first_y, int width, int height, Camera& camer
 Camera cameraAtLevel(const Camera& camera, int level);
 /// Pixels of the full image along a pixel of a level.
 inline double levelScale(int level) { return static_cast<double>(1 << level); }
-/// The pixel of the full image at a pixel of a level: the inverse of that motion.
+/// The pixel of the full image at a pixel of a level: x = (x_level + 0.5) 2^level - 0.5.
 inline Eigen::Vector2d atFullResolution(const Eigen::Vector2d& level_px, int level) {
   return (level_px.array() + 0.5).matrix() * levelScale(level) - Eigen::Vector2d::Constant(0.5);
 }

@@ -4,6 +4,7 @@
 #include "core/base/math.h"
 #include "core/geometry/distortion.h"
 #include "core/geometry/polynomial.h"
+#include "core/geometry/root_between.h"
 
 namespace boresight {
 namespace {

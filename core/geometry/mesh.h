@@ -32,8 +32,8 @@ class FaceList {
   FaceList() = default;
   /// Any contiguous range of faces.
   template <class Faces>
-    requires std::is_convertible_v<const Faces&, std::span<const Face>>
-  FaceList(const Faces& faces) : FaceList(std::span<const Face>(faces)) {}
+  requires std::is_convertible_v<const Faces&, std::span<const Face>> FaceList(const Faces& faces)
+      : FaceList(std::span<const Face>(faces)) {}
   /// Of 32-bit indices.
   FaceList(std::span<const Face> faces) : long_(faces.data()), size_(faces.size()) {}
   /// Of 16-bit indices.
@@ -85,7 +85,7 @@ class FaceList {
     const FaceList* list_;
     std::size_t at_;
   };
-  Iterator begin() const { return {*this, 0}; }   ///< The first face
+  Iterator begin() const { return {*this, 0}; }    ///< The first face
   Iterator end() const { return {*this, size_}; }  ///< Behind the last face
 
  private:
@@ -186,7 +186,7 @@ inline Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& 
   return buildAdjacency(mesh, arena, arena, adjacency);
 }
 
-/// Axis-aligned bounding box of the vertices used by faces of matched parts, station frame.
+/// An axis-aligned box, m.
 struct BoundingBox {
   Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();  ///< least coordinates
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();  ///< largest coordinates
@@ -201,8 +201,9 @@ struct BoundingBox {
     return point;
   }
 };
-/// The box of single-precision bounds; zeros when they are empty.
+/// The same box in double precision; zeros when it is empty.
 BoundingBox boxOf(const Eigen::AlignedBox3f& bounds_m);
+/// The box of the vertices used by faces of matched parts, station frame; zeros without such faces.
 BoundingBox matchedBounds(const MeshView& mesh);
 
 }  // namespace boresight

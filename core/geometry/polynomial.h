@@ -25,22 +25,4 @@ Polynomial operator*(double factor, const Polynomial& a);
 /// derivative a polynomial is monotone, so bisection there finds every root.
 double positiveUpTo(const Polynomial& polynomial, double limit);
 
-/// The root between two bounds of a function that increases there, from a start between them:
-/// Newton's method, or bisection where its step leaves the bounds. The slope may vanish at a bound.
-template <class Value, class Slope>
-double rootBetween(double low, double high, double start, const Value& value, const Slope& slope) {
-  constexpr int kMostRounds = 100;
-  double x = start;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const double excess = value(x);
-    if (excess == 0.0) break;
-    (excess > 0.0 ? high : low) = x;
-    const double newton = x - excess / slope(x);
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (next == x || next <= low || next >= high) break;
-    x = next;
-  }
-  return x;
-}
-
 }  // namespace boresight

@@ -131,7 +131,7 @@ StepReport Localizer::weighed() {
   const PoseComparison::Next next =
       comparison_.takePose(attempt_, workspace().iteration->camera_from_station_before, measured,
                            pass_.outcome().weak, pass_.context());
-  comparison_.show(pass_.context(), pass_.workspace());
+  comparison_.writeTo(pass_.context(), pass_.workspace());
   return follow(next, LocalizationStatus::kConverged, report);
 }
 

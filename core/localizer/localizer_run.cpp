@@ -74,7 +74,7 @@ void Localizer::startComparison() {
     comparison_ = PoseComparison::ofFirst(workspace().candidates, seed);
   else
     comparison_ = PoseComparison(workspace().candidates, seed);
-  comparison_.show(pass_.context(), pass_.workspace());
+  comparison_.writeTo(pass_.context(), pass_.workspace());
   iterate(comparison_.next(attempt_.index(), pass_.context()));
 }
 

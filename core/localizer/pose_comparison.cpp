@@ -250,7 +250,7 @@ double PoseComparison::gap(const RunContext& run) const {
   return hypotheses_[best_index_].score - std::max(0.0, other);
 }
 
-void PoseComparison::show(const RunContext& run, Workspace& workspace) const {
+void PoseComparison::writeTo(const RunContext& run, Workspace& workspace) const {
   workspace.hypotheses = hypotheses();
   workspace.best_hypothesis = best_index_;
   workspace.competitor = competitorIndex(run);

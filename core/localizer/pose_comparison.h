@@ -90,8 +90,8 @@ class PoseComparison {
   int competitorIndex(const RunContext& run) const;
   /// Score of the best hypothesis minus that of the competitor, which counts as 0 when negative.
   double gap(const RunContext& run) const;
-  /// Shows the hypotheses so far.
-  void show(const RunContext& run, Workspace& workspace) const;
+  /// Writes the hypotheses so far, with best, competitor and gap, to the workspace.
+  void writeTo(const RunContext& run, Workspace& workspace) const;
 
  private:
   enum class Source : std::uint8_t {

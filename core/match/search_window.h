@@ -15,6 +15,10 @@ struct SearchWindow {
   bool empty() const { return x_max < x_min || y_max < y_min; }
   /// Whether a pixel lies on its border, or beyond.
   bool endsAt(int x, int y) const { return x <= x_min || x >= x_max || y <= y_min || y >= y_max; }
+  /// Whether a position lies in it.
+  bool contains(double x, double y) const {
+    return x >= x_min && x <= x_max && y >= y_min && y <= y_max;
+  }
   /// px.
   int width() const { return x_max - x_min + 1; }
   /// px.

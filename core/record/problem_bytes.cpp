@@ -10,7 +10,6 @@
 
 #include "core/base/bytes.h"
 #include "core/base/digest.h"
-#include "core/base/enum_name.h"
 #include "core/localizer/value_writers.h"
 #include "core/pnp/correspondence.h"
 
@@ -275,17 +274,33 @@ void writeOptions(const LocalizerOptions& options, ByteWriter& writer) {
 }
 
 const char* problemFaultText(ProblemFault fault) {
-  return enumName<ProblemFault::kArenaTooSmall>(
-      fault,
-      {"ok", "not a problem file", "written in another version of the format; export it again",
-       "truncated or longer than its stored size; export it again",
-       "damaged: the checksum does not match; export it again",
-       "an option is unknown, missing, misplaced or out of range; export it again",
-       "the camera's parameters are invalid",
-       "the seed or its uncertainty is not finite, or not a rotation",
-       "the mesh has no faces, indices out of range, or is not finite",
-       "the ignore mask has bits beyond the image", "counts and size contradict each other",
-       "mesh and mask do not fit into memory; use a coarser mesh"});
+  switch (fault) {
+    case ProblemFault::kNone:
+      return "ok";
+    case ProblemFault::kNotAProblem:
+      return "not a problem file";
+    case ProblemFault::kVersion:
+      return "written in another version of the format; export it again";
+    case ProblemFault::kSize:
+      return "truncated or longer than its stored size; export it again";
+    case ProblemFault::kChecksum:
+      return "damaged: the checksum does not match; export it again";
+    case ProblemFault::kOption:
+      return "an option is unknown, missing, misplaced or out of range; export it again";
+    case ProblemFault::kCamera:
+      return "the camera's parameters are invalid";
+    case ProblemFault::kPose:
+      return "the seed or its uncertainty is not finite, or not a rotation";
+    case ProblemFault::kMesh:
+      return "the mesh has no faces, indices out of range, or is not finite";
+    case ProblemFault::kIgnore:
+      return "the ignore mask has bits beyond the image";
+    case ProblemFault::kContent:
+      return "counts and size contradict each other";
+    case ProblemFault::kArenaTooSmall:
+      return "mesh and mask do not fit into memory; use a coarser mesh";
+  }
+  return "unknown";
 }
 
 ProblemFault checkHeader(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> magic,
@@ -297,8 +312,8 @@ ProblemFault checkHeader(std::span<const std::uint8_t> bytes, std::span<const st
   if (reader.failed() || !std::equal(magic.begin(), magic.end(), front.begin()))
     return ProblemFault::kNotAProblem;
   if (stored_version != version) return ProblemFault::kVersion;
-  return size != bytes.size() || reader.left() < checksum_bytes ? ProblemFault::kSize
-                                                                : ProblemFault::kNone;
+  if (size != bytes.size() || reader.left() < checksum_bytes) return ProblemFault::kSize;
+  return ProblemFault::kNone;
 }
 
 ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options) {

@@ -70,11 +70,11 @@ struct ProblemCheck {
   const char* option = nullptr;              ///< name, or nullptr
 };
 
-/// Checks the front of a file: magic, u32 version, u32 size of the whole, which ends with a
-/// checksum of that many bytes. kNone, kNotAProblem, kVersion or kSize.
+/// Checks the header of a file: magic, u32 version, u32 size of the file, which ends with a
+/// checksum of `checksum_bytes`. Returns kNone, kNotAProblem, kVersion or kSize.
 ProblemFault checkHeader(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> magic,
                          std::uint32_t version, std::size_t checksum_bytes);
-/// Bytes of that front.
+/// Bytes of the header.
 constexpr std::size_t headerBytes(std::span<const std::uint8_t> magic) { return magic.size() + 8; }
 
 /// Reads the output of writeOptions. kOption with the first option that is misplaced, of another

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Hashes that show whether two runs detected and rendered the
+// SPDX-License-Identifier: Apache-2.0
+// Hashes that show whether two runs detected and rendered the
 // same edges: SHA-256 over big-endian values (FORMAT.md), the same on every machine. Nothing
 // allocates.
 #pragma once

@@ -66,9 +66,8 @@ void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render,
   // The render's pixels are 2^level pixels of the image long.
   const double scale = static_cast<double>(camera_.width) / std::max(1, render.camera.width);
   const int by_spacing = static_cast<int>(kSampleSpacing_px / scale + 0.5);
-  const int by_capacity = (render.pixel_count + most - 1) / most;
   const int by_need = render.pixel_count / kMinSamples;
-  const int stride = std::max({1, std::min(by_spacing, by_need), by_capacity});
+  const int stride = std::max(std::min(by_spacing, by_need), render.strideFor(most));
   RefinementResult& result = *result_;
   result.sample_count = 0;
   box_px_.setEmpty();

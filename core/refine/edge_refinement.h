@@ -58,7 +58,8 @@ struct EdgeSample {
   Eigen::Vector2d normal() const { return Eigen::Vector2d(normal_x, normal_y) / 127.0; }
 };
 
-/// A sample found at a pixel, as its error is grouped; `box_px` holds all places.
+/// The error of a sample whose edge is seen at `pixel`, for ErrorGroups. `box_px`: box of all edge
+/// places.
 inline GroupedError groupedError(const EdgeSample& sample, const Eigen::Vector2d& pixel,
                                  const Eigen::AlignedBox2d& box_px) {
   const Eigen::Vector2d sizes_px = box_px.sizes().cwiseMax(1.0);

@@ -13,9 +13,9 @@ constexpr double kTan22 = 0.41421356237309503;  ///< tan 22.5 deg
 
 }  // namespace
 
-double robustScale_px(std::span<float> sizes_px) {
-  const auto middle = sizes_px.begin() + static_cast<std::ptrdiff_t>(sizes_px.size() / 2);
-  std::nth_element(sizes_px.begin(), middle, sizes_px.end());
+double robustScale_px(std::span<float> absolute_px) {
+  const auto middle = absolute_px.begin() + static_cast<std::ptrdiff_t>(absolute_px.size() / 2);
+  std::nth_element(absolute_px.begin(), middle, absolute_px.end());
   return std::max(kMinScale_px, kMadToSigma * static_cast<double>(*middle));
 }
 

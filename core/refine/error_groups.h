@@ -18,8 +18,9 @@ inline constexpr double kTukey = 4.685;
 inline constexpr double kMadToSigma = 1.4826;
 inline constexpr double kMinScale_px = 0.15;
 
-/// That scale of errors, given their sizes; reorders them.
-double robustScale_px(std::span<float> sizes_px);
+/// The scale of errors: kMadToSigma times the median, at least kMinScale_px. `absolute_px`, their
+/// absolute values, must not be empty, and is reordered.
+double robustScale_px(std::span<float> absolute_px);
 
 /// One measured place on an edge, as it enters a pose.
 struct GroupedError {

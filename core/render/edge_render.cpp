@@ -221,7 +221,7 @@ Status EdgeRenderer::stepAlone(bool& done) {
   }
   const std::size_t count = itemsOf(phase_);
   const std::size_t last = std::min(next_ + kSlice, count);
-  prepare(next_, last, 0);
+  transformOrBin(next_, last, 0);
   next_ = last;
   if (last == count) enter(phase_ == Phase::kVertices ? Phase::kFaces : Phase::kBands);
   return Status::kOk;
@@ -236,11 +236,11 @@ void EdgeRenderer::runTask(int task, int worker) {
   const auto tasks = static_cast<std::size_t>(task_count_);
   const std::size_t first = count * static_cast<std::size_t>(task) / tasks;
   const std::size_t last = count * (static_cast<std::size_t>(task) + 1) / tasks;
-  prepare(first, last, task);
+  transformOrBin(first, last, task);
 }
 
-/// Vertices or faces of the phase.
-void EdgeRenderer::prepare(std::size_t first, std::size_t last, int share) {
+/// Transforms vertices, or bins faces into a share of the lists, as the phase needs.
+void EdgeRenderer::transformOrBin(std::size_t first, std::size_t last, int share) {
   if (phase_ == Phase::kVertices)
     scene_.transform(*rays_, first, last);
   else

@@ -142,7 +142,7 @@ class EdgeRenderer {
   int tasksOf(Phase phase) const;
   void enter(Phase phase);
   Status stepAlone(bool& done);
-  void prepare(std::size_t first, std::size_t last, int share);
+  void transformOrBin(std::size_t first, std::size_t last, int share);
   Status joinBlocks();
   void findCoveredBands();
   int beginOfBlock(int block) const;

@@ -207,10 +207,9 @@ Pose ObjectSearch::renderedPose() const {
 void ObjectSearch::takePoints() {
   const Camera& camera = view_edges_->view().camera;
   takeEvenly(*render_, [&](const EdgePixel& pixel) {
-    const double normal_x = pixel.normal_x / 127.0;
-    const double normal_y = pixel.normal_y / 127.0;
-    points_.add({pixel.x + 0.01 * pixel.offset * normal_x - camera.cx,
-                 pixel.y + 0.01 * pixel.offset * normal_y - camera.cy, normal_x, normal_y});
+    const Eigen::Vector2d normal = pixel.normal();
+    const Eigen::Vector2d place_px = pixel.onLine_px();
+    points_.add({place_px.x() - camera.cx, place_px.y() - camera.cy, normal.x(), normal.y()});
   });
 }
 

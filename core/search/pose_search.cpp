@@ -94,7 +94,7 @@ bool PoseSearch::beginAtSeed(const SearchProblem& problem, EdgeRenderer& rendere
   found_.add(seed);
   left_ = 0;
   resumed_ = false;
-  return start(found_, kSeedRound);
+  return beginRounds(found_, kSeedRound);
 }
 
 bool PoseSearch::step() {
@@ -102,7 +102,7 @@ bool PoseSearch::step() {
     case Phase::kSearch:
       if (!search_.step()) return false;
       takeFound();
-      return !start(found_, 0);
+      return !beginRounds(found_, 0);
     case Phase::kView:
       if (!view_edges_.step()) return false;
       meter_.begin(view_edges_.edges());
@@ -136,17 +136,17 @@ bool PoseSearch::resume() {
   if (!isSuspended()) return false;
   resumed_ = true;
   left_ = 0;
-  return start(found_, 0);
+  return beginRounds(found_, 0);
 }
 
-/// Starts a round with these poses; false when none of them, nor a later round, has anything to do.
-bool PoseSearch::start(const PoseList& waiting, int round) {
+/// Begins with these poses at a round; false when no pose of this or a later round can be refined.
+bool PoseSearch::beginRounds(const PoseList& waiting, int round) {
   beginRound(waiting, round);
   return beginNext();
 }
 
 void PoseSearch::beginRound(const PoseList& waiting, int round) {
-  waiting_ = waiting;
+  waiting_ = waiting;  // first: `waiting` may be kept_
   kept_.clear();
   round_ = round;
   next_ = 0;
@@ -160,7 +160,7 @@ int PoseSearch::most() const {
 
 /// Starts the next waiting pose; false when none is left and all rounds are over.
 bool PoseSearch::beginNext() {
-  for (;; beginRound(kept_, round_ + 1)) {
+  for (;;) {
     const Round& round = nth(kSearchRounds, round_);
     while (next_ < most()) {
       current_ = waiting_[next_++];
@@ -171,6 +171,7 @@ bool PoseSearch::beginNext() {
     }
     left_ += waiting_.size() - most();
     if (round_ >= kLastRound) break;
+    beginRound(kept_, round_ + 1);
   }
   phase_ = Phase::kDone;
   return false;

@@ -64,7 +64,7 @@ class PoseSearch {
   void takeFound();
   bool beginNext();
   void beginRound(const PoseList& waiting, int round);
-  bool start(const PoseList& waiting, int round);
+  bool beginRounds(const PoseList& waiting, int round);
   int most() const;
   bool keep();
   bool beginLevel();
@@ -84,7 +84,7 @@ class PoseSearch {
   ContourEvidenceMeter meter_;
   /// Poses of the previous round and of the current round, by descending evidence.
   PoseList waiting_, kept_;
-  /// Poses that the search found, for resume().
+  /// Poses of the first round: those of the search, with which resume() begins again, or the seed.
   PoseList found_;
   int left_ = 0;  ///< to resume()
 

@@ -84,7 +84,12 @@ void TemplateSelector::beginSums(const EdgeRender& render, int side_px) {
 }
 
 /// Row `row` of the summed-area table: over the rows of blocks before it.
-std::span<TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) const {
+std::span<TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) {
+  const auto columns = static_cast<std::size_t>(blocks_x_ + 1);
+  return sums_.subspan(static_cast<std::size_t>(row % kHeldRows) * columns, columns);
+}
+
+std::span<const TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) const {
   const auto columns = static_cast<std::size_t>(blocks_x_ + 1);
   return sums_.subspan(static_cast<std::size_t>(row % kHeldRows) * columns, columns);
 }

@@ -101,7 +101,8 @@ class TemplateSelector {
 
   void beginSums(const EdgeRender& render, int side_px);
   void sumRow(const EdgeRender& render);
-  std::span<Scatter> sumsOf(int row) const;
+  std::span<Scatter> sumsOf(int row);
+  std::span<const Scatter> sumsOf(int row) const;
   int reachOf(int side_px) const;
   Scatter scatterAround(int x, int y, int side_px) const;
   float distinctnessOf(const EdgePixel& pixel, int side_px) const;

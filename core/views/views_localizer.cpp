@@ -326,7 +326,7 @@ StepReport ViewsLocalizer::takePose(const StepReport& report) {
   probability_ = measured.probability;
   const PoseComparison::Next next = comparison_.takePose(
       attempt_, leading().camera_from_station_before, measured, weak_, first().context());
-  comparison_.show(first().context(), first().workspace());
+  comparison_.writeTo(first().context(), first().workspace());
   if (next != PoseComparison::Next::kConclude || !options_.support.gate)
     return follow(next, status, report);
   status = judgeGap(first().workspace(), options_);

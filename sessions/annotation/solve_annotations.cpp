@@ -130,8 +130,8 @@ struct Fit {
   NormalEquations equations;
   std::vector<double> weight;  ///< one per annotation
 
-  double weights() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
-  double rms_px() const { return std::sqrt(equations.squares / std::max(1.0, 2.0 * weights())); }
+  double weightSum() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
+  double rms_px() const { return std::sqrt(equations.squares / std::max(1.0, 2.0 * weightSum())); }
 };
 
 std::vector<double> weightedNorms(std::span<const AnnotatedView> views,
@@ -272,7 +272,7 @@ AnnotationsSolution describe(std::span<const AnnotatedView> views,
   solution.rig_from_station = fit.rig_from_station;
   for (const AnnotatedView& view : views)
     solution.camera_from_station.push_back(view.camera_from_rig * fit.rig_from_station);
-  const double freedom = 2.0 * fit.weights() - kPoseUnknowns;
+  const double freedom = 2.0 * fit.weightSum() - kPoseUnknowns;
   solution.degrees_of_freedom = std::max(0, static_cast<int>(std::floor(freedom + 1e-9)));
   if (solution.degrees_of_freedom > 0)
     solution.noise_factor = std::sqrt(fit.equations.squares / freedom);
@@ -283,7 +283,7 @@ AnnotationsSolution describe(std::span<const AnnotatedView> views,
   double squares_px = 0.0;
   for (const SolvedAnnotation& annotation : solution.annotations)
     squares_px += annotation.weight * annotation.residual_px.squaredNorm();
-  solution.rms_px = std::sqrt(squares_px / std::max(1.0, 2.0 * fit.weights()));
+  solution.rms_px = std::sqrt(squares_px / std::max(1.0, 2.0 * fit.weightSum()));
   solution.ambiguous = ambiguousPoseOf(views, annotations, fit, robust);
   return solution;
 }

@@ -96,7 +96,7 @@ class ExternalMethod final : public MatchingMethod {
     match.y = frame.y + pair.second_y;
     match.score = 2.0 * pair.score;
     match.found = true;
-    if (holds(match.window, cv::Point2d(match.x, match.y))) found.push_back(match);
+    if (match.window.contains(match.x, match.y)) found.push_back(match);
   }
 
   std::string command_;

@@ -18,11 +18,6 @@ inline cv::Mat matOf(const ImageView& image) {
           static_cast<std::size_t>(image.stride)};
 }
 
-inline bool holds(const SearchWindow& window, const cv::Point2d& point) {
-  return point.x >= window.x_min && point.x <= window.x_max && point.y >= window.y_min &&
-         point.y <= window.y_max;
-}
-
 /// SSD and NCC (Pham 2025, Sec. V): every template's shaded intensities against the image's, at
 /// all offsets of its search window, by OpenCV's matchTemplate. Templates without any contrast are
 /// not found. Positions are refined by a parabola per axis when loop.subpixel_matches is set.

@@ -251,7 +251,8 @@ class OrbMethod final : public MatchingMethod {
 
   static void compare(const Features& rendered, const Features& seen, Candidate& one) {
     for (std::size_t j = 0; j < seen.points.size(); ++j) {
-      if (!holds(one.match.window, seen.points[j].pt)) continue;
+      const cv::Point2f& at = seen.points[j].pt;
+      if (!one.match.window.contains(at.x, at.y)) continue;
       const int distance = distanceOf(rendered, one.feature, seen, static_cast<int>(j));
       if (distance < one.distance) {
         one.second = one.distance;

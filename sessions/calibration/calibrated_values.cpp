@@ -19,11 +19,12 @@ struct NamedParameter {
   std::string_view parameter;
   const char* name;
   double Camera::*member;
+  bool relative;  ///< its sigma is a share of the member
 };
 constexpr std::array<NamedParameter, 3> kNamedParameters = {
-    {{"focal_relative", "focal length", &Camera::fx},
-     {"centre_x_px", "principal point x", &Camera::cx},
-     {"centre_y_px", "principal point y", &Camera::cy}}};
+    {{"focal_relative", "focal length", &Camera::fx, true},
+     {"centre_x_px", "principal point x", &Camera::cx, false},
+     {"centre_y_px", "principal point y", &Camera::cy, false}}};
 
 }  // namespace
 
@@ -47,9 +48,9 @@ std::vector<CalibratedValue> calibratedValues(const Camera& before,
       ++coefficient;
       continue;
     }
-    const double unit_px = parameter.name == "focal_relative" ? before.fx : 1.0;
-    values.push_back({named->name, "px", before.*named->member, after.*named->member,
-                      parameter.sigma * unit_px});
+    const double before_px = before.*named->member;
+    const double sigma_px = parameter.sigma * (named->relative ? before_px : 1.0);
+    values.push_back({named->name, "px", before_px, after.*named->member, sigma_px});
   }
   return values;
 }
@@ -68,10 +69,10 @@ std::string changeText(std::span<const CalibratedValue> values) {
 
 std::string directionText(const Undetermined& direction) {
   std::string text = direction.text;
-  for (const auto& [parameter, name, member] : kNamedParameters)
-    for (std::size_t at = 0; (at = text.find(parameter, at)) != std::string::npos;) {
-      text.replace(at, parameter.size(), name);
-      at += std::string_view(name).size();
+  for (const NamedParameter& named : kNamedParameters)
+    for (std::size_t at = 0; (at = text.find(named.parameter, at)) != std::string::npos;) {
+      text.replace(at, named.parameter.size(), named.name);
+      at += std::string_view(named.name).size();
     }
   return text;
 }

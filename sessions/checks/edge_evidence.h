@@ -140,7 +140,8 @@ Share evidenceOf(const ImageEdges& image, const std::vector<LookedPlace>& looked
 /// The region in which a pose's edges are searched, including displaced ones.
 cv::Rect regionOf(const PredictedEdges& edges);
 
-/// Along the six axes at the station, and in the least determined direction.
+/// Coverage with the pose displaced along the six axes at the station and in the least determined
+/// direction.
 std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
                                const Camera& camera, const Pose& camera_from_station);
 

@@ -29,17 +29,17 @@ int decimalsOfTwoDigits(double value) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 0, 4);
 }
 
-/// The standard deviation in the image; without figures where `known` is false or it is not
-/// limited.
+/// Standard deviation in the image; without figures where it is not limited or the covariance is
+/// not `known`.
 PrecisionFigure imageFigure(const ReviewSubject& subject, double sigmas, bool known) {
   PrecisionFigure figure{
       kProjection, "in the image", "px", subject.requirement.projection_px, {}, {}, {}};
   if (!figure.required || !known || subject.loaded == nullptr) return figure;
   const auto vertices = matchedVertices(subject.loaded->scene.view());
   const auto sigma_px = [&](const Matrix6d& covariance) -> std::optional<double> {
-    const auto one = projectionSigma(subject.loaded->source.camera, subject.camera_from_station,
-                                     vertices, covariance);
-    return one ? std::optional(sigmas * *one) : std::nullopt;
+    const auto one_sigma_px = projectionSigma(subject.loaded->source.camera,
+                                              subject.camera_from_station, vertices, covariance);
+    return one_sigma_px ? std::optional(sigmas * *one_sigma_px) : std::nullopt;
   };
   figure.found = sigma_px(subject.covariance.total());
   figure.by_image = sigma_px(subject.covariance.picture);

@@ -45,8 +45,10 @@ std::optional<Eigen::RowVectorXd> distanceByVectors(const std::vector<VectorStep
   return by;
 }
 
-/// -(J' J)^-1 J' K with K from `distance_by`: the derivative of a place's distance along its normal
-/// by some parameters, or nothing. `right`: zeros, a column for each parameter.
+/// Derivative of the fitted pose by some parameters: -(J' J)^-1 J' K, with the rows of J by the
+/// pose and those of K (`distance_by`) by the parameters, of each place's distance along its
+/// normal. Empty where the places do not determine the pose. `right` is zero, with a column per
+/// parameter.
 template <class Right, class DistanceBy>
 std::optional<Right> poseBy(std::span<const EdgePlace> places, const Camera& camera,
                             const Pose& camera_from_station, Right right,

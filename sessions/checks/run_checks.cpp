@@ -107,7 +107,7 @@ InlierPlaces inlierPlaces(const IterationTrace& iteration) {
     places.inlier_depths_m.push_back(match.depth_m);
   }
   for (const EdgePixel& pixel : iteration.render.pixels) {
-    places.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
+    places.edges_px.push_back(atFullResolution({pixel.x, pixel.y}, iteration.level));
     places.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
   }
   return places;
@@ -218,17 +218,19 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
     checks.push_back(notAskedCheck(kOnboard, "The case has no onboard record, or was not run."));
     return;
   }
-  const RunVerdict verdict = subject.onboard->verdict;
-  if (verdict == RunVerdict::kEqual) {
-    checks.push_back(statedCheck(kOnboard, true, "The run equals the onboard run to the bit.", ""));
-    return;
+  const std::string difference = differenceText(*subject.onboard);
+  const auto add = [&checks](bool passed, const std::string& found, const char* remedy) {
+    checks.push_back(statedCheck(kOnboard, passed, found, remedy));
+  };
+  switch (subject.onboard->verdict) {
+    case RunVerdict::kEqual:
+      return add(true, "The run equals the onboard run to the bit.", "");
+    case RunVerdict::kWithinLimits:
+      return add(true, "The run agrees with the onboard run within limits. " + difference, "");
+    case RunVerdict::kDifferent:
+      return add(false, "The run differs from the onboard run. " + difference,
+                 "Compare both runs: the checked run is not the onboard run.");
   }
-  const bool passed = verdict == RunVerdict::kWithinLimits;
-  checks.push_back(statedCheck(kOnboard, passed,
-                               (passed ? "The run agrees with the onboard run within limits. "
-                                       : "The run differs from the onboard run. ") +
-                                   differenceText(*subject.onboard),
-                               "Compare both runs: the checked run is not the onboard run."));
 }
 
 std::int32_t lastInliers(const LocalizationTrace& run) {

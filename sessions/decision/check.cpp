@@ -15,6 +15,15 @@ std::string numberText(double value, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
+Check checkOf(const CheckName& name, CheckState state, const std::string& sentence) {
+  Check check;
+  check.id = name.id;
+  check.title = name.title;
+  check.state = state;
+  check.sentence = sentence;
+  return check;
+}
+
 }  // namespace
 
 const char* checkStateText(CheckState state) {
@@ -59,17 +68,12 @@ Check measuredCheck(const CheckName& name, const std::string& unit, double figur
 
 Check statedCheck(const CheckName& name, bool passed, const std::string& found,
                   const std::string& remedy) {
-  Check check = notAskedCheck(name, passed || remedy.empty() ? found : found + " " + remedy);
-  check.state = passed ? CheckState::kPassed : CheckState::kFailed;
-  return check;
+  return checkOf(name, passed ? CheckState::kPassed : CheckState::kFailed,
+                 passed || remedy.empty() ? found : found + " " + remedy);
 }
 
 Check notAskedCheck(const CheckName& name, const std::string& why) {
-  Check check;
-  check.id = name.id;
-  check.title = name.title;
-  check.sentence = why;
-  return check;
+  return checkOf(name, CheckState::kNotApplicable, why);
 }
 
 void addNotAsked(const std::vector<CheckName>& names, const std::string& why,

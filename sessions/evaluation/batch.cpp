@@ -36,7 +36,7 @@ auto shared(Load&& load) {
 }
 
 struct StationScene {
-  const Station* station;  ///< that the mesh is of
+  const Station* station;  ///< whose mesh `scene` is
   SceneMesh scene;
   std::vector<Eigen::Vector3f> matched_vertices;
 };
@@ -168,8 +168,9 @@ Batch::Batch(const Dataset& dataset, const BatchOptions& options,
                                                   options_.mirror);
                                }));
       work.scene = known->second;
-      work.image = shared([this, &one = *planned.input] {
-        return CaseImage{readCaseImage(dataset_, one), readCaseMask(dataset_, one)};
+      work.image = shared([this, &dataset_case = *planned.input] {
+        return CaseImage{readCaseImage(dataset_, dataset_case),
+                         readCaseMask(dataset_, dataset_case)};
       });
     }
     ++cases_.back()->runs_left;

@@ -74,8 +74,10 @@ void addMethodOptions(const OptionList& changed, MethodFacts& facts) {
 }
 
 DatasetFacts datasetFacts(const Dataset& dataset) {
-  return {std::filesystem::absolute(dataset.file).lexically_normal().string(), dataset.sha256,
-          std::ssize(dataset.cases), kVersion};
+  return {.dataset = std::filesystem::absolute(dataset.file).lexically_normal().string(),
+          .dataset_sha256 = dataset.sha256,
+          .cases = std::ssize(dataset.cases),
+          .version = kVersion};
 }
 
 std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given) {

@@ -31,8 +31,8 @@ ordered_json cameraEntry(const Camera& camera) {
 
 /// The rotation row by row.
 std::vector<double> rotationOf(const Pose& pose) {
-  const Eigen::Matrix3d columns = pose.matrix().transpose();
-  return {columns.data(), columns.data() + columns.size()};
+  const Eigen::Matrix3d transposed = pose.matrix().transpose();  // Eigen stores columns
+  return {transposed.data(), transposed.data() + transposed.size()};
 }
 
 Eigen::Vector3d translationOf_mm(const Pose& pose) { return kMillimetres * pose.translation_m; }

@@ -144,6 +144,19 @@ std::int64_t steadyNow_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
+void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& take) {
+  auto tags = readTags(database);
+  const std::vector<std::string> names = runTable().names();
+  SqlStatement statement(
+      database,
+      "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
+  while (statement.step()) {
+    RunResult run = runTable().read(statement, database.file());
+    run.tags = std::move(tags[integerOf(statement.cell(static_cast<int>(names.size())))]);
+    take(std::move(run));
+  }
+}
+
 }  // namespace
 
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset) {
@@ -172,16 +185,7 @@ ResultsFacts readResultsFacts(const std::filesystem::path& file) {
 
 void forEachRun(const std::filesystem::path& file, const std::function<void(RunResult&&)>& take) {
   SqlDatabase database = openedToRead(file);
-  auto tags = readTags(database);
-  const std::vector<std::string> names = runTable().names();
-  SqlStatement statement(
-      database,
-      "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
-  while (statement.step()) {
-    RunResult run = runTable().read(statement, file);
-    run.tags = std::move(tags[integerOf(statement.cell(static_cast<int>(names.size())))]);
-    take(std::move(run));
-  }
+  readRuns(database, take);
 }
 
 void readSteps(const std::filesystem::path& file, std::span<RunResult* const> runs) {
@@ -198,8 +202,9 @@ void readSteps(const std::filesystem::path& file, std::span<RunResult* const> ru
 }
 
 Results readResults(const std::filesystem::path& file) {
-  Results results{readResultsFacts(file), {}};
-  forEachRun(file, [&results](RunResult&& run) { results.runs.push_back(std::move(run)); });
+  SqlDatabase database(file, SqlAccess::kRead);
+  Results results{factsOf(database), {}};
+  readRuns(database, [&results](RunResult&& run) { results.runs.push_back(std::move(run)); });
   return results;
 }
 

@@ -110,7 +110,7 @@ void addSeconds(std::vector<Column<Row>>& columns) {
       {"s_total", "REAL", [](const Row& row) { return SqlValue(row.seconds.total()); }});
 }
 
-/// A number of a struct that may be missing: NULL.
+/// A number of an optional struct; NULL when the struct is empty.
 template <class Row, class Struct, class Number>
 Column<Row> partOf(std::string name, std::optional<Struct> Row::*field, Number Struct::*part) {
   return {std::move(name), "REAL",

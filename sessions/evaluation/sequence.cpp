@@ -10,8 +10,9 @@
 namespace boresight::sessions {
 
 DeclaredUncertainty assumedMotion() {
-  return {Eigen::Vector3d::Constant(0.005), Eigen::Vector3d::Constant(1.0),
-          UncertaintyPivot::kStation};
+  return {.translation_m = Eigen::Vector3d::Constant(0.005),
+          .rotation_deg = Eigen::Vector3d::Constant(1.0),
+          .pivot = UncertaintyPivot::kStation};
 }
 
 Sequence::Sequence(SequenceInputs inputs)

@@ -16,6 +16,7 @@ namespace boresight::sessions {
 /// Poses solved from annotations as by `solveCaseAnnotations`, each together with its rig: of the
 /// given cases, or of all cases with annotations (their own or their rig's). InputError for an id
 /// that does not exist, and when there is no pose.
+/// Sets only case_id, source and camera_from_station of each pose.
 HandedPoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids);
 
 /// Called with the number of cases written or read so far, and of all.

@@ -54,7 +54,7 @@ const std::vector<ColmapModel>& colmapModels() {
 constexpr const char* kWhatToDo =
     "; undistort the images with COLMAP's image_undistorter and read its model";
 
-/// Of a camera for which `hasColmapModel`.
+/// The camera's model must satisfy `hasColmapModel`.
 const ColmapModel& modelFor(const Camera& camera) {
   if (camera.model == CameraModel::kPinhole) return colmapModels()[0];
   if (camera.model == CameraModel::kKannalaBrandt) return colmapModels()[3];
@@ -277,9 +277,10 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
                                                    "' needs a unique id and a unique name");
     if (!hasColmapModel(image.camera.model))
       throw OutputError(folder / "cameras.txt",
-                        "image " + std::to_string(image.id) + " '" + image.name +
-                            "' has a camera of the CAHV family, which the format does not know; "
-                            "undistort the image, the pose stays");
+                        "image " + std::to_string(image.id) + " '" + image.name + "' has a " +
+                            cameraModelName(image.camera.model) +
+                            " camera, which the format does not know; undistort the image, the "
+                            "pose stays");
     auto at = std::find(cameras.begin(), cameras.end(), image.camera);
     if (at == cameras.end()) at = cameras.insert(cameras.end(), image.camera);
     image_text += imageLine(image, static_cast<int>(at - cameras.begin()) + 1);

@@ -229,24 +229,21 @@ void compareTemplates(const RecordedIteration& a, const RecordedIteration& b,
   }
 }
 
-/// Rotation rad, translation m from one pose to the other; left perturbation, camera frame.
-Vector6d between(const Pose& pose, const Pose& other) {
-  Vector6d xi = Vector6d::Zero();
-  if (pose == other) return xi;  // to the bit: the product of the two is not
-  const Pose step = other * pose.inverse();
-  xi << rotationLog(step.rotation), step.translation_m;
-  return xi;
+/// perturbationBetween, exactly zero for poses with the same bits.
+Vector6d exactPerturbation(const Pose& from, const Pose& to) {
+  if (from == to) return Vector6d::Zero();
+  return perturbationBetween(from, to);
 }
 
-/// Of an iteration, or of the whole runs.
+/// `comparison` is of an iteration, or of two runs.
 template <class Comparison>
-void takeDistance(const Vector6d& xi, Comparison& comparison) {
+void setDistance(const Vector6d& xi, Comparison& comparison) {
   comparison.rotation_mrad = kMilliradians * xi.head<3>().norm();
   comparison.translation_mm = kMillimetres * xi.tail<3>().norm();
 }
 
 /// Root of xi' C^-1 xi / 6; nothing without a covariance that can be inverted.
-std::optional<double> sigmasOf(const Vector6d& xi, const Matrix6d& covariance) {
+std::optional<double> mahalanobisSigmas(const Vector6d& xi, const Matrix6d& covariance) {
   if (!covariance.allFinite() || covariance.isZero()) return {};
   const Eigen::LDLT<Matrix6d> factors(covariance);
   if (factors.info() != Eigen::Success || !factors.isPositive()) return {};
@@ -263,26 +260,28 @@ void compareIterations(const OnboardRecord& record, const OnboardRecord& other,
     const IterationTrace& trace = record.iterations[i].trace;
     compared.index = trace.index;
     compareTemplates(record.iterations[i], other.iterations[i], limits, compared);
-    takeDistance(between(trace.camera_from_station, other.iterations[i].trace.camera_from_station),
-                 compared);
+    setDistance(
+        exactPerturbation(trace.camera_from_station, other.iterations[i].trace.camera_from_station),
+        compared);
   }
 }
 
 void compareEnds(const OnboardRecord& record, const OnboardRecord& other,
                  RecordComparison& comparison) {
   if (!record.end || !other.end) return;
-  const Vector6d xi = between(record.end->camera_from_station, other.end->camera_from_station);
-  takeDistance(xi, comparison);
+  const Vector6d xi =
+      exactPerturbation(record.end->camera_from_station, other.end->camera_from_station);
+  setDistance(xi, comparison);
   if (record.end->status == LocalizationStatus::kConverged &&
       other.end->status == LocalizationStatus::kConverged)
-    comparison.pose_sigmas = sigmasOf(xi, record.end->covariance);
+    comparison.pose_sigmas = mahalanobisSigmas(xi, record.end->covariance);
 }
 
 /// Whether the first iterations of both runs started at one pose: from the seed. Candidates of a
 /// search are refined on the pixels, and so differ with them.
 bool startAlike(const OnboardRecord& record, const OnboardRecord& other) {
-  return between(record.iterations.front().trace.camera_from_station_before,
-                 other.iterations.front().trace.camera_from_station_before)
+  return exactPerturbation(record.iterations.front().trace.camera_from_station_before,
+                           other.iterations.front().trace.camera_from_station_before)
              .norm() == 0.0;
 }
 

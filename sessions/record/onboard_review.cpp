@@ -81,11 +81,17 @@ std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord
 }
 
 std::string verdictText(const RecordComparison& comparison) {
-  if (comparison.verdict == RunVerdict::kDifferent) return "Differs from the run on the ground.";
-  if (comparison.first) return "Within the limits; the pixels differ.";
-  return comparison.verdict == RunVerdict::kEqual
-             ? "Agrees with the run on the ground bit for bit."
-             : "Agrees with the run on the ground bit for bit as far as it reaches.";
+  switch (comparison.verdict) {
+    case RunVerdict::kEqual:
+      return "Agrees with the run on the ground bit for bit.";
+    case RunVerdict::kWithinLimits:
+      return comparison.first
+                 ? "Within the limits; the pixels differ."
+                 : "Agrees with the run on the ground bit for bit as far as it reaches.";
+    case RunVerdict::kDifferent:
+      break;
+  }
+  return "Differs from the run on the ground.";
 }
 
 std::string limitsText(const ComparisonLimits& limits) {

@@ -168,13 +168,13 @@ OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* 
   }
   takeSupport(run.support, run.status, record);
   if (run.status != LocalizationStatus::kRunning)
-    record.end = RecordedEnd{run.status,
-                             run.fault,
-                             static_cast<std::int32_t>(complete),
-                             run.attempts,
-                             run.camera_from_station,
-                             run.covariance,
-                             run.digest};
+    record.end = RecordedEnd{.status = run.status,
+                             .fault = run.fault,
+                             .iterations = static_cast<std::int32_t>(complete),
+                             .attempts = run.attempts,
+                             .camera_from_station = run.camera_from_station,
+                             .covariance = run.covariance,
+                             .digest = run.digest};
   noteWhatTheRunLacks(record);
   return record;
 }

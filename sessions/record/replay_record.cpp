@@ -338,7 +338,7 @@ class Replayer {
       if (!match.searched || !item.point_in_station_m.allFinite()) continue;
       Correspondence pair;
       pair.point_in_station_m = item.point_in_station_m;
-      pair.pixel = fullImagePixel(match.x, match.y, iteration.level);
+      pair.pixel = atFullResolution({match.x, match.y}, iteration.level);
       pair.sigma_px = kMatchSigma_px * scale;
       iteration.correspondences.push_back(pair);
       iteration.template_of.push_back(static_cast<std::int32_t>(i));

@@ -90,7 +90,7 @@ cairo_surface_t* makeSurface(const cv::Mat& bgr) {
   if (unsigned char* data = cairo_image_surface_get_data(surface)) {
     const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
     cv::Mat pixels(bgr.size(), CV_8UC4, data, stride);
-    cv::cvtColor(bgr, pixels, cv::COLOR_BGR2BGRA);
+    cv::cvtColor(bgr, pixels, cv::COLOR_BGR2BGRA);  // RGB24 in memory, on little-endian machines
   }
   cairo_surface_mark_dirty(surface);
   std::vector<std::uint8_t> jpeg;

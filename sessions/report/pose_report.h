@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Report of a pose: two PDF pages.
+// SPDX-License-Identifier: Apache-2.0
+// Report of a pose: two PDF pages.
 #pragma once
 
 #include <cstdint>

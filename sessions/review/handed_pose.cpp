@@ -50,11 +50,11 @@ void takeAnnotations(const Session& session, const SessionCase& session_case, Ha
   pose.camera_from_station = *camera_from_station;
 }
 
-/// What was decided on, which is what its source gives.
+/// Takes the decided pose; InputError when its source gives another one.
 void takeDecision(const Decision& decision, HandedPose& pose) {
-  const Pose found = pose.camera_from_station;
+  const Pose pose_of_source = pose.camera_from_station;
   static_cast<JudgedPose&>(pose) = *decision.pose;
-  requireAsMeasured(pose.case_id, poseDifference(pose, found));
+  requireAsMeasured(pose.case_id, poseDifference(pose, pose_of_source));
   pose.score = 1.0;
   pose.checks = decision.checks;
 }

@@ -181,7 +181,12 @@ void requireKnownWaivers(const std::vector<Check>& checks, const CheckWaivers& w
 }
 
 Decision newDecision(const std::string& case_id, Verdict verdict, const Signature& who) {
-  return {case_id, verdict, who.by, who.comment, utcNowText(), {}};
+  return {.case_id = case_id,
+          .verdict = verdict,
+          .by = who.by,
+          .comment = who.comment,
+          .time = utcNowText(),
+          .digest = {}};
 }
 
 Session withDecision(const Session& session, Decision decision) {

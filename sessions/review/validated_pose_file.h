@@ -28,6 +28,8 @@ struct HandedPose : JudgedPose {
   double score = 1.0;         ///< 1 of a decided or annotated one, else the edge support of its run
   double seconds = -1.0;      ///< that its run took; -1: not known
   std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
+
+  bool operator==(const HandedPose&) const = delete;  ///< the base's would compare the pose alone
 };
 
 /// The pose of a decision that holds, else that of the last run if it converged, else the
@@ -41,7 +43,7 @@ struct HandedPoses {
   std::vector<std::string> notes;  ///< cases without a pose
 };
 /// The same for several cases (all when none is named), in the order of the session.
-/// `progress` is called with the number of cases so far and of the session.
+/// Calls `progress` before each case of the session, with the number of cases done and of all.
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids,
                         const std::function<void(int done, int of)>& progress = {});
 

@@ -75,7 +75,7 @@ Document readDocument(const fs::path& file) {
 
 using Findings = std::vector<VerifyFinding>;
 
-/// Good when nothing is `wrong`.
+/// Adds a finding: `good`, or `wrong` unless that is empty.
 void note(Findings& findings, const char* what, const std::string& wrong, const std::string& good) {
   findings.push_back({wrong.empty(), what, wrong.empty() ? good : wrong});
 }

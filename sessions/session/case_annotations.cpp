@@ -32,21 +32,21 @@ AnnotatedView viewOf(const Session& session, const SessionCase& session_case,
 
 CaseAnnotations caseAnnotations(const Session& session, const std::string& case_id, bool together) {
   const SessionCase& chosen = knownCase(session, case_id);
-  CaseAnnotations all;
-  all.robust = session.robust_annotations;
-  all.sigmas = checkLimits(session.review.preset, session.review.limits).sigmas;
-  all.requirement = requirementOf(session, chosen);
-  all.camera_from_end_effector = chosen.camera_from_end_effector;
-  all.views.push_back(viewOf(session, chosen, Pose()));
-  if (!together) return all;
+  CaseAnnotations annotations;
+  annotations.robust = session.robust_annotations;
+  annotations.sigmas = checkLimits(session.review.preset, session.review.limits).sigmas;
+  annotations.requirement = requirementOf(session, chosen);
+  annotations.camera_from_end_effector = chosen.camera_from_end_effector;
+  annotations.views.push_back(viewOf(session, chosen, Pose()));
+  if (!together) return annotations;
   for (const std::string& id : casesOfRig(session, case_id)) {
+    if (!session.annotations.contains(id)) continue;
     const SessionCase& other = *session.findCase(id);
-    if (session.annotations.contains(id))
-      all.views.push_back(viewOf(session, other, other.rig->camera_from_rig));
+    annotations.views.push_back(viewOf(session, other, other.rig->camera_from_rig));
   }
-  all.rigid = all.views.size() > 1;
-  if (all.rigid) all.views[0].camera_from_rig = chosen.rig->camera_from_rig;
-  return all;
+  annotations.rigid = annotations.views.size() > 1;
+  if (annotations.rigid) annotations.views[0].camera_from_rig = chosen.rig->camera_from_rig;
+  return annotations;
 }
 
 std::optional<Pose> CaseAnnotationsSolution::camera_from_station() const {

@@ -15,7 +15,9 @@ namespace boresight::sessions {
 
 /// The four input files of a case.
 enum class InputKind { kImage, kCamera, kMesh, kSeed };
-inline constexpr int kInputKinds = 4;
+inline constexpr std::array kAllInputs = {InputKind::kImage, InputKind::kCamera, InputKind::kMesh,
+                                          InputKind::kSeed};
+inline constexpr int kInputKinds = static_cast<int>(kAllInputs.size());
 
 /// An input that a run would reject.
 struct InputConcern {

@@ -80,10 +80,16 @@ void markSaturated(const MaskStroke& stroke, const ImageView& image, BitImage& m
 }
 
 void applyStroke(const MaskStroke& stroke, const ImageView& image, BitImage& mask) {
-  if (stroke.kind == StrokeKind::kPolygon) return fillPolygon(stroke, mask);
-  if (stroke.kind == StrokeKind::kSaturation) return markSaturated(stroke, image, mask);
-  for (std::size_t i = 0; i < stroke.points.size(); ++i)
-    brushSegment(stroke, stroke.points[i > 0 ? i - 1 : 0], stroke.points[i], mask);
+  switch (stroke.kind) {
+    case StrokeKind::kBrush:
+      for (std::size_t i = 0; i < stroke.points.size(); ++i)
+        brushSegment(stroke, stroke.points[i > 0 ? i - 1 : 0], stroke.points[i], mask);
+      return;
+    case StrokeKind::kPolygon:
+      return fillPolygon(stroke, mask);
+    case StrokeKind::kSaturation:
+      return markSaturated(stroke, image, mask);
+  }
 }
 
 bool contains(const MaskStrokes& strokes, const MaskStroke& stroke) {
@@ -158,12 +164,18 @@ MaskStrokes namedStrokesOfCamera(const Session& session, const std::string& case
 
 std::string strokeText(const MaskStroke& stroke) {
   std::string text = stroke.erase ? "erase: " : "";
-  if (stroke.kind == StrokeKind::kBrush)
-    text += "brush, " + threeDigits(2.0 * stroke.radius_px) + " px wide";
-  else if (stroke.kind == StrokeKind::kPolygon)
-    text += "polygon of " + std::to_string(stroke.points.size()) + " corners";
-  else
-    text += stroke.level == 0 ? "all pixels" : "pixels of at least " + std::to_string(stroke.level);
+  switch (stroke.kind) {
+    case StrokeKind::kBrush:
+      text += "brush, " + threeDigits(2.0 * stroke.radius_px) + " px wide";
+      break;
+    case StrokeKind::kPolygon:
+      text += "polygon of " + std::to_string(stroke.points.size()) + " corners";
+      break;
+    case StrokeKind::kSaturation:
+      text +=
+          stroke.level == 0 ? "all pixels" : "pixels of at least " + std::to_string(stroke.level);
+      break;
+  }
   return stroke.name.empty() ? text : stroke.name + " (" + text + ")";
 }
 

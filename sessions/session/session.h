@@ -177,7 +177,7 @@ Session withCase(const Session& session, SessionCase changed);
 std::string freeCaseId(const Session& session, const std::string& id);
 /// The same session without a case and all its data.
 Session withoutCase(const Session& session, const std::string& case_id);
-/// The same session with a case's annotation; an empty one is removed.
+/// The same session with these annotations of a case; empty ones are removed.
 Session withAnnotations(const Session& session, const std::string& case_id,
                         Annotations annotations);
 /// The same session with the completed annotation rounds of a case; an empty list is removed.

@@ -121,10 +121,10 @@ struct Inputs {
                                    : datasets.emplace(file, readDataset(file)).first->second;
   }
 
-  const SceneMesh& sceneOf(const Dataset& dataset, const Case& one) {
-    const FrameTree frames = framesOf(dataset, one);
+  const SceneMesh& sceneOf(const Dataset& dataset, const Case& dataset_case) {
+    const FrameTree frames = framesOf(dataset, dataset_case);
     std::vector<PartSource> parts;
-    for (const PartSource& part : partsOf(dataset, one))
+    for (const PartSource& part : partsOf(dataset, dataset_case))
       if (part.state.used()) parts.push_back(placedPart(part, frames));
     for (const auto& [known, scene] : scenes)
       if (known == parts) return scene;
@@ -132,8 +132,9 @@ struct Inputs {
   }
 };
 
-/// The final pose of a completed run. A failed run returns its seed: instead its iteration nearest
-/// to the truth, its first one where none was nearer than the seed, or its last one without truth.
+/// The pose to draw: of a completed run its final pose. Of a failed run, whose final pose is the
+/// seed, its iteration nearest to the truth; its first one when none came nearer than the seed; its
+/// last one without truth.
 OverlayLayer reached(const RunResult& run) {
   if (run.completed) return {"end", run.camera_from_station, kResultColor, true};
   const auto layer = [](const char* name, const RunStep& step) {
@@ -150,20 +151,21 @@ ColorImage pictureOf(const Failure& failure, Inputs& inputs, int width_px, int h
   if (std::filesystem::is_directory(failure.dataset))
     throw InputError(failure.dataset, "it is a folder: pictures are made of a dataset.json only");
   const Dataset& dataset = inputs.datasetOf(failure.dataset);
-  const Case* one = dataset.findCase(failure.run.case_id);
-  if (one == nullptr) throw InputError(failure.dataset, "it has no case " + failure.run.case_id);
-  const GrayImage image = readCaseImage(dataset, *one);
-  const SceneMesh& scene = inputs.sceneOf(dataset, *one);
+  const Case* dataset_case = dataset.findCase(failure.run.case_id);
+  if (dataset_case == nullptr)
+    throw InputError(failure.dataset, "it has no case " + failure.run.case_id);
+  const GrayImage image = readCaseImage(dataset, *dataset_case);
+  const SceneMesh& scene = inputs.sceneOf(dataset, *dataset_case);
   std::vector<Pose> framed = {failure.run.camera_from_station_seed};
   std::vector<OverlayLayer> layers = {
       {"seed", failure.run.camera_from_station_seed, kSeedColor, true}};
-  if (one->truth_camera_from_station) {
-    framed.push_back(*one->truth_camera_from_station);
-    layers.push_back({"truth", *one->truth_camera_from_station, kTruthColor, false});
+  if (dataset_case->truth_camera_from_station) {
+    framed.push_back(*dataset_case->truth_camera_from_station);
+    layers.push_back({"truth", *dataset_case->truth_camera_from_station, kTruthColor, false});
   }
   if (!failure.run.steps.empty())  // over the truth, which shows on both sides of it
     layers.push_back(reached(failure.run));
-  return stationPicture(image.view(), dataset.cameraOf(*one), scene.view(), framed, layers,
+  return stationPicture(image.view(), dataset.cameraOf(*dataset_case), scene.view(), framed, layers,
                         width_px, height_px);
 }
 

@@ -43,7 +43,7 @@ std::string asSentence(std::string clause);
 /// As printf, at most 639 characters.
 [[gnu::format(printf, 1, 2)]] std::string formatText(const char* pattern, ...);
 
-/// "0.02": three significant digits.
+/// "%.3g": at most three significant digits, such as "0.02".
 std::string threeDigits(double value);
 
 /// A to Z as a to z, and the reverse, in any locale.

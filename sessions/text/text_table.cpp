@@ -51,10 +51,11 @@ std::string TextTable::text() const {
       const std::string padding(widths[i] - cell.size(), ' ');
       line += (i > 0 ? "  " : "") + (i == 0 ? cell + padding : padding + cell);
     }
-    const std::size_t width = line.size();  // of the whole table
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
-    if (r == 0) text += std::string(width, '-') + "\n";
+    if (r > 0) continue;
+    const std::size_t gaps = 2 * (widths.size() - 1);
+    text += std::string(std::accumulate(widths.begin(), widths.end(), gaps), '-') + "\n";
   }
   return text;
 }

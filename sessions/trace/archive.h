@@ -29,6 +29,7 @@ using BitsOf = std::conditional_t<
 class ArchiveWriter {
  public:
   template <class T>
+  requires std::is_arithmetic_v<T>
   void number(const T& value) {
     const std::uint64_t bits = std::bit_cast<BitsOf<T>>(value);
     for (std::size_t i = sizeof(T); i-- > 0;)
@@ -65,6 +66,7 @@ class ArchiveReader {
       : file_(std::move(file)), bytes_(bytes) {}
 
   template <class T>
+  requires std::is_arithmetic_v<T>
   void number(T& value) {
     require(sizeof(T) <= bytes_.size() - place_, "truncated");
     const auto bits =

@@ -270,7 +270,7 @@ EdgeLines edgeLines(const RenderTrace& render, int level) {
   for (const std::vector<Eigen::Vector2d>& places : Joiner(render).lines()) {
     EdgeLine& line = lines.emplace_back();
     for (const Eigen::Vector2d& place : simplified(places)) {
-      line.places_px.push_back(fullImagePixel(place.x(), place.y(), level));
+      line.places_px.push_back(atFullResolution({place.x(), place.y()}, level));
       line.box_px.extend(line.places_px.back());
     }
   }

@@ -55,23 +55,23 @@ void recordMatching(const Iteration& iteration, Stage reached, bool full, Iterat
   trace.template_of = firstOf(iteration.template_of, kept);
   if (reached < Stage::kPose) return;
   const PnpSolution& pnp = iteration.pnp;
-  trace.pnp = {pnp.camera_from_station,
-               firstOf(pnp.inlier, kept),
-               firstOf(pnp.residual_px, kept),
-               pnp.inlier_count,
-               pnp.rms_px,
-               pnp.covariance,
-               pnp.samples};
+  trace.pnp = {.camera_from_station = pnp.camera_from_station,
+               .inlier = firstOf(pnp.inlier, kept),
+               .residual_px = firstOf(pnp.residual_px, kept),
+               .inlier_count = pnp.inlier_count,
+               .rms_px = pnp.rms_px,
+               .covariance = pnp.covariance,
+               .samples = pnp.samples};
 }
 
 RefinementTrace recordRefinement(const RefinementResult& refinement, bool full) {
-  return {refinement.camera_from_station,
-          refinement.covariance,
-          firstOf(refinement.samples, full ? refinement.sample_count : 0),
-          refinement.sample_count,
-          refinement.found_count,
-          refinement.used_count,
-          refinement.rms_px};
+  return {.camera_from_station = refinement.camera_from_station,
+          .covariance = refinement.covariance,
+          .samples = firstOf(refinement.samples, full ? refinement.sample_count : 0),
+          .sample_count = refinement.sample_count,
+          .found_count = refinement.found_count,
+          .used_count = refinement.used_count,
+          .rms_px = refinement.rms_px};
 }
 
 }  // namespace
@@ -89,7 +89,10 @@ RenderTrace recordRender(const EdgeRender& render) {
 }
 
 EdgeMapTrace recordEdgeMap(const EdgeMap& edges, RecordLevel level) {
-  EdgeMapTrace trace{{}, edges.low_threshold, edges.high_threshold, edges.edge_count};
+  EdgeMapTrace trace{.level = {},
+                     .low_threshold = edges.low_threshold,
+                     .high_threshold = edges.high_threshold,
+                     .edge_count = edges.edge_count};
   if (level != RecordLevel::kSummary)
     std::ranges::transform(edges.level, trace.level.begin(), &recordBits);
   return trace;

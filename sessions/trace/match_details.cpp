@@ -14,14 +14,14 @@ MatchDetails describeTemplate(const Template& item, std::int32_t index, int leve
           .depth_m = static_cast<double>(item.depth_m),
           .distinctness = static_cast<double>(item.distinctness),
           .point_in_station_m = item.point_in_station_m,
-          .predicted_px = fullImagePixel(item.center_x, item.center_y, level)};
+          .predicted_px = atFullResolution({item.center_x, item.center_y}, level)};
 }
 
 void describeMatch(const Match& match, int level, MatchDetails& details) {
   details.searched = match.searched;
   if (!match.searched) return;
   details.at_border = match.at_border;
-  details.found_px = fullImagePixel(match.x, match.y, level);
+  details.found_px = atFullResolution({match.x, match.y}, level);
   details.edge_share = shareOf(match.peak.counts.edge_hits, match.norms.edges);
   details.empty_share = shareOf(match.peak.counts.empty_hits, match.norms.empties);
   details.score = whsScore(match.peak.counts, match.norms);
@@ -43,11 +43,6 @@ void describeScore(const RecordedScore& recorded, MatchDetails& details) {
 }
 
 }  // namespace
-
-Eigen::Vector2d fullImagePixel(double x, double y, int level) {
-  const double scale = static_cast<double>(1 << level);
-  return {(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5};
-}
 
 std::vector<MatchDetails> matchDetails(const IterationTrace& iteration) {
   std::vector<MatchDetails> all;

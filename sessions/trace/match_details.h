@@ -42,7 +42,4 @@ struct MatchDetails {
 /// One per template of an iteration that was recorded in full.
 std::vector<MatchDetails> matchDetails(const IterationTrace& iteration);
 
-/// The centre of a level's pixel in pixels of the full image.
-Eigen::Vector2d fullImagePixel(double x, double y, int level);
-
 }  // namespace boresight::sessions

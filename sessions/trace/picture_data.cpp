@@ -14,8 +14,6 @@ bool anyWithinOne(const BitImage& bits, int x, int y) {
   return false;
 }
 
-void setBit(BitMap& map, int x, int y) { map.view().set(x, y); }
-
 }  // namespace
 
 AgreementMaps agreementOf(const RenderTrace& render, const BitMap& test_edges) {
@@ -28,12 +26,15 @@ AgreementMaps agreementOf(const RenderTrace& render, const BitMap& test_edges) {
   const BitImage rendered = render.edges.view();
   const BitImage mask = render.mask.view();
   const BitImage seen = test_edges.view();
+  BitImage both = maps.both.view();
+  BitImage only_rendered = maps.only_rendered.view();
+  BitImage only_image = maps.only_image.view();
   for (int y = 0; y < seen.height; ++y) {
     for (int x = 0; x < seen.width; ++x) {
       if (rendered.get(x, y)) {
-        setBit(anyWithinOne(seen, x, y) ? maps.both : maps.only_rendered, x, y);
+        (anyWithinOne(seen, x, y) ? both : only_rendered).set(x, y);
       } else if (seen.get(x, y) && mask.get(x, y) && !anyWithinOne(rendered, x, y)) {
-        setBit(maps.only_image, x, y);
+        only_image.set(x, y);
       }
     }
   }

@@ -53,7 +53,7 @@ std::string probabilityText(const LocalizationTrace& trace) {
          supportShare(trace);
 }
 
-/// "The pose has the most evidence of 3 compared poses; it comes from candidate 1 of the search."
+/// " It has the most evidence of 3 compared poses and comes from candidate 1 of the search."
 std::string comparisonText(const LocalizationTrace& trace) {
   if (trace.best_hypothesis < 0) return "";
   const std::size_t count = trace.hypotheses.size();

@@ -27,11 +27,28 @@ RenderView RenderTrace::view() const {
 }
 
 void StageSeconds::add(Stage stage, double seconds) {
-  if (stage == Stage::kEdges || stage == Stage::kSearch) initialization += seconds;
-  if (stage == Stage::kRender) rendering += seconds;
-  if (stage == Stage::kTemplates || stage == Stage::kMatch) matching += seconds;
-  if (stage == Stage::kPose) pose += seconds;
-  if (stage == Stage::kRefine || stage == Stage::kSupport) refinement += seconds;
+  switch (stage) {
+    case Stage::kEdges:
+    case Stage::kSearch:
+      initialization += seconds;
+      break;
+    case Stage::kRender:
+      rendering += seconds;
+      break;
+    case Stage::kTemplates:
+    case Stage::kMatch:
+      matching += seconds;
+      break;
+    case Stage::kPose:
+      pose += seconds;
+      break;
+    case Stage::kRefine:
+    case Stage::kSupport:
+      refinement += seconds;
+      break;
+    case Stage::kFinished:
+      break;
+  }
 }
 
 StageSeconds& StageSeconds::operator+=(const StageSeconds& other) {

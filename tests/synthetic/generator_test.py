@@ -165,7 +165,9 @@ class Plan(unittest.TestCase):
                                        (("m", i), move / declared["translation_m"][i])):
                         key = (station, *key, *(t for t in frame["tags"] if t == "far"))
                         widest[key] = max(widest.get(key, 0.0), abs(share))
-        self.assertGreater(min(widest.values()), 2 / 3)  # and fill it
+        # And fill it; for bc it is the paper's range.
+        self.assertGreater(min(v for k, v in widest.items() if k[0] != "bc"), 0.7)
+        self.assertGreater(min(widest.values()), 2 / 3)
 
     def test_canister_view_and_end_effector_are_over_a_random_sleeve(self):
         seen = set()

@@ -36,7 +36,7 @@ struct AnnotationState {
   bool chosen = false;
   double outlier = 0.0;  ///< residual in sigmas if it is an outlier, else 0
 };
-/// Of a point or a line; `outliers`: normalized residual by id.
+/// State of a point or a line. `outliers` holds normalized residuals by id.
 template <class Pair>
 AnnotationState stateOf(const Pair& pair, const std::string& selected,
                         const std::map<std::string, double>& outliers) {

@@ -171,7 +171,7 @@ class AnnotationController : public QObject {
                     const QString& text);
   template <class Pair>
   bool put(const Pair& pair, const QString& text);
-  const sessions::SessionCase* caseWithPose();
+  const sessions::SessionCase* finishMoveAndFindSolvedCase();
   bool mayChange(const std::string& id);
   template <class Pair>
   bool replace(const Pair* before, const Pair& after, const QString& text);

@@ -246,8 +246,9 @@ void AnnotationController::removeRound(int round) {
   setRounds(std::move(rounds), annotations_, tr("Remove the annotations of %1").arg(by));
 }
 
-/// The shown case if it has a solved pose; nullptr also, with a message, while that is stale.
-const sessions::SessionCase* AnnotationController::caseWithPose() {
+/// Finishes a move, then returns the shown case; nullptr without a solved pose, and, with a
+/// message, while the pose is being solved.
+const sessions::SessionCase* AnnotationController::finishMoveAndFindSolvedCase() {
   finishMove();
   if (!solvedPose()) return nullptr;
   if (!stale_) return document_.session().findCase(case_id_);
@@ -256,7 +257,7 @@ const sessions::SessionCase* AnnotationController::caseWithPose() {
 }
 
 void AnnotationController::useAsTruth() {
-  const sessions::SessionCase* session_case = caseWithPose();
+  const sessions::SessionCase* session_case = finishMoveAndFindSolvedCase();
   if (!session_case) return;
   const bool replaces = session_case->camera_from_station_truth.has_value();
   const sessions::CaseAnnotations& annotations = answer_.solution->annotations;
@@ -277,7 +278,8 @@ void AnnotationController::useAsTruth() {
 }
 
 void AnnotationController::useAsSeed() {
-  const sessions::SessionCase* session_case = state_.currentCase() ? caseWithPose() : nullptr;
+  const sessions::SessionCase* session_case =
+      state_.currentCase() ? finishMoveAndFindSolvedCase() : nullptr;
   if (!session_case) return;
   document_.edit(
       sessions::withCase(

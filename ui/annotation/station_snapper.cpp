@@ -25,10 +25,10 @@ void StationSnapper::takeCase() {
   if (!case_) return;
   runner_.start(
       key,
-      [one = case_](const std::stop_token&) {
-        // The snapper looks into the mesh of the case, which must live as long.
-        return MeshPtr(new sessions::MeshSnapper(one->scene.view()),
-                       [one](const sessions::MeshSnapper* mesh) { delete mesh; });
+      [searched_case = case_](const std::stop_token&) {
+        // The snapper points into the mesh of the case; the deleter's copy keeps the case alive.
+        return MeshPtr(new sessions::MeshSnapper(searched_case->scene.view()),
+                       [searched_case](const sessions::MeshSnapper* mesh) { delete mesh; });
       },
       [this](MeshPtr mesh) {
         mesh_ = std::move(mesh);

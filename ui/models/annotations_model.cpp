@@ -11,11 +11,10 @@
 namespace boresight::ui {
 namespace {
 
+using sessions::kMillimetres;
 using sessions::kUnknown;
 using sessions::LinePair;
 using sessions::PointPair;
-
-constexpr double kMillimetres = 1e3;
 
 template <class Pair>
 AnnotationRow commonRow(const Pair& pair) {

@@ -371,8 +371,9 @@ void QueuePanel::showProgress() {
 
 void QueuePanel::openChosen() {
   const QString id = chosenCase();
-  if (id.isEmpty()) return;
-  const QueueRow& chosen = model_.at(model_.rowOf(id)).row;
+  const int row = model_.rowOf(id);
+  if (row < 0) return;  // no case is chosen, or it has left the queue
+  const QueueRow& chosen = model_.at(row).row;
   Q_EMIT openRequested(id, fromText(chosen.run_digest), chosen.opens_at);
 }
 

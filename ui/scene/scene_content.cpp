@@ -144,8 +144,9 @@ std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& 
   if (dashes.size() < 2 || !(period > 0.0)) return {line};
   const Eigen::Vector3d along = line.second - line.first;
   std::vector<SceneLine> scene_lines;
-  double from = 0.0;  // in periods of the whole line
-  for (std::size_t i = 0; from < periods - 1e-9; ++i) {
+  double from = 0.0;                  // in periods of the whole line
+  constexpr double kRounding = 1e-9;  // else the last dash could have no length
+  for (std::size_t i = 0; from < periods - kRounding; ++i) {
     const double to = std::min(from + dashes[i % dashes.size()] / period, periods);
     if (i % 2 == 0)
       scene_lines.emplace_back(line.first + from / periods * along,

@@ -2,7 +2,6 @@
 #include "ui/scene/scene_navigation.h"
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include <QtWidgets>
@@ -203,16 +202,22 @@ std::function<void()> SceneNavigation::actOf(const QKeyEvent& event) {
       turn(kKeyTurn_px * arrow);
       Q_EMIT changed();
     };
-  const std::map<int, std::function<void()>> acts = {
-      {Qt::Key_Home, [this] { reset(); }},
-      {Qt::Key_V, [this] { setThroughCamera(!through_); }},
-      {Qt::Key_Plus, zoomed(1.0)},
-      {Qt::Key_Minus, zoomed(-1.0)},
-      {Qt::Key_Comma, [this] { roll(-kKeyRoll_rad); }},
-      {Qt::Key_Period, [this] { roll(kKeyRoll_rad); }},
-  };
-  const auto act = acts.find(event.key());
-  return act == acts.end() ? nullptr : act->second;
+  switch (event.key()) {
+    case Qt::Key_Home:
+      return [this] { reset(); };
+    case Qt::Key_V:
+      return [this] { setThroughCamera(!through_); };
+    case Qt::Key_Plus:
+      return zoomed(1.0);
+    case Qt::Key_Minus:
+      return zoomed(-1.0);
+    case Qt::Key_Comma:
+      return [this] { roll(-kKeyRoll_rad); };
+    case Qt::Key_Period:
+      return [this] { roll(kKeyRoll_rad); };
+    default:
+      return nullptr;
+  }
 }
 
 }  // namespace boresight::ui

@@ -3,7 +3,6 @@
 
 #include <QtWidgets>
 #include <algorithm>
-#include <tuple>
 
 #include "ui/annotation/annotation_aim.h"
 #include "ui/plots/plot_colors.h"
@@ -34,20 +33,19 @@ std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, b
     for (const Frustum& frustum : content.frusta)
       result.push_back(
           {Entry::kLine, &poseRoleStyle(frustum.role, frustum.rejected), frustum.label});
-  const auto has = [](const auto& values, auto wanted, auto member) {
-    return std::ranges::find(values, wanted, member) != values.end();
-  };
-  if (look.shown.mesh && has(content.mesh().parts, false, &ScenePart::match)) {
+  const auto& parts = content.mesh().parts;
+  if (look.shown.mesh && std::ranges::find(parts, false, &ScenePart::match) != parts.end()) {
     result.push_back({Entry::kMatched, nullptr, overlayText("matched part")});
     result.push_back({Entry::kOccluding, nullptr, overlayText("occluding part")});
   }
   if (!look.shown.points) return result;
-  for (const auto& [kind, sign, meaning] :
-       {std::tuple(ScenePointKind::kInlier, Entry::kInlier, "inlier"),
-        {ScenePointKind::kOutlier, Entry::kOutlier, "outlier"},
-        {ScenePointKind::kUnmatched, Entry::kUnmatched, "not used"}})
-    if (has(content.points, kind, &ScenePoint::kind))
+  const auto add = [&](ScenePointKind kind, Entry::Sign sign, const char* meaning) {
+    if (std::ranges::find(content.points, kind, &ScenePoint::kind) != content.points.end())
       result.push_back({sign, nullptr, overlayText(meaning)});
+  };
+  add(ScenePointKind::kInlier, Entry::kInlier, "inlier");
+  add(ScenePointKind::kOutlier, Entry::kOutlier, "outlier");
+  add(ScenePointKind::kUnmatched, Entry::kUnmatched, "not used");
   return result;
 }
 

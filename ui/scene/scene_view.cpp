@@ -79,20 +79,22 @@ void SceneView::buildBar() {
 /// What of the scene is drawn, and the opacity of the mesh.
 QMenu* SceneView::showMenu() {
   auto* menu = new QMenu(ui_.show);
-  for (const auto& [name, member] : {std::pair(tr("Mesh"), &SceneShown::mesh),
-                                     {tr("Edges of the mesh"), &SceneShown::mesh_edges},
-                                     {tr("Cameras"), &SceneShown::frusta},
-                                     {tr("Trail of the iterations"), &SceneShown::trail},
-                                     {tr("Template points"), &SceneShown::points},
-                                     {tr("Axes of the station"), &SceneShown::axes}}) {
-    QAction* action = menu->addAction(name);
+  const auto add = [&](const char* name, const QString& title, bool SceneShown::*part) {
+    QAction* action = menu->addAction(title);
+    action->setObjectName(QLatin1String(name));
     action->setCheckable(true);
-    action->setChecked(look_.shown.*member);
-    connect(action, &QAction::toggled, this, [this, part = member](bool on) {
+    action->setChecked(look_.shown.*part);
+    connect(action, &QAction::toggled, this, [this, part](bool on) {
       look_.shown.*part = on;
       updateLook();
     });
-  }
+  };
+  add("showMesh", tr("Mesh"), &SceneShown::mesh);
+  add("showMeshEdges", tr("Edges of the mesh"), &SceneShown::mesh_edges);
+  add("showCameras", tr("Cameras"), &SceneShown::frusta);
+  add("showTrail", tr("Trail of the iterations"), &SceneShown::trail);
+  add("showPoints", tr("Template points"), &SceneShown::points);
+  add("showAxes", tr("Axes of the station"), &SceneShown::axes);
   menu->addSeparator();
   opacity_ = new QSlider(Qt::Horizontal);
   opacity_->setRange(0, 100);

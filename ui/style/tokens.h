@@ -1,9 +1,11 @@
-// SPDX-License-Identifier: Apache-2.0 The look of the program as constants: colours, lines on the
+// SPDX-License-Identifier: Apache-2.0
+// The look of the program as constants: colours, lines on the
 // image, sizes. The style sheet (ui/style/boresight.qss) names the colours as @name@ and takes them
 // from here.
 #pragma once
 
 #include <array>
+#include <iterator>
 
 #include <QRgb>
 
@@ -68,6 +70,9 @@ inline constexpr ThemeColor kThemeColors[] = {
     {"overlay", &Theme::overlay, 0x1C1D20, 0x1C1D20},
     {"overlayLine", &Theme::overlay_line, 0x45494F, 0x45494F},
 };
+
+static_assert(std::size(kThemeColors) * sizeof(QRgb) == sizeof(Theme),
+              "each colour of a theme is listed once");
 
 constexpr Theme themeOf(QRgb ThemeColor::*column) {
   Theme theme = {};

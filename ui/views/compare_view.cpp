@@ -194,8 +194,10 @@ void CompareView::take(Picture picture) {
   following_ = true;  // the operator's part of the image stays
   view_->setImage(same ? image_.display().picture() : grayImage(compared->image.view()));
   following_ = false;
-  view_->setPart(LayerId::kIterationEdges, &Layer::lines, picture_.lines);
-  view_->setPart(LayerId::kIterationEdges, &Layer::line, picture_.line);
+  Layer layer = view_->layer(LayerId::kIterationEdges);
+  layer.lines = picture_.lines;
+  layer.line = picture_.line;
+  view_->setLayer(std::move(layer));
   follow(*view_, image_.view());
 }
 

@@ -53,9 +53,13 @@ void ImageView::setImage(const QImage& gray) {
 }
 
 void ImageView::setLayer(Layer layer) {
-  const auto index = static_cast<std::size_t>(layer.id);
-  layers_[index] = std::move(layer);
-  pixmaps_[index].clear();
+  const LayerId id = layer.id;
+  layers_[static_cast<std::size_t>(id)] = std::move(layer);
+  layerChanged(id);
+}
+
+void ImageView::layerChanged(LayerId id) {
+  pixmaps_[static_cast<std::size_t>(id)].clear();
   redraw();
   Q_EMIT layersChanged();
 }

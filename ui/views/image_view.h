@@ -41,9 +41,8 @@ class ImageView : public QWidget {
   /// Replaces one part of a layer, such as its marks.
   template <class Part>
   void setPart(LayerId id, Part Layer::*part, std::type_identity_t<Part> value) {
-    Layer changed = layer(id);
-    changed.*part = std::move(value);
-    setLayer(std::move(changed));
+    layers_[static_cast<std::size_t>(id)].*part = std::move(value);
+    layerChanged(id);
   }
   void setStyle(LayerId id, const LayerStyle& style);
 
@@ -91,7 +90,7 @@ class ImageView : public QWidget {
   void transformChanged();
   void layersChanged();  ///< contents or styles
   void contextMenuRequested(const QPointF& pixel, const QPoint& global);
-  /// Tools other than the owner end.
+  /// A tool was started: all tools but the owner must end.
   void toolClaimed(const QObject* owner);
   /// While a tool is set, the left button is the tool's (the middle one pans); a double click is
   /// two presses.
@@ -103,7 +102,7 @@ class ImageView : public QWidget {
   /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
-  /// One tool works at a time: other tools are asked to end. The keys are the tool's.
+  /// Ends the other tools, and takes the keyboard focus for this one.
   void claimTool(const QObject* owner);
   void setToolPreviews(std::vector<ToolPreview> previews);
   /// Adds painting over everything else, in the widget's coordinates, as long as its owner lives.
@@ -153,6 +152,8 @@ class ImageView : public QWidget {
   double workToDraw() const;
   double bitsPerPixel(int level) const;
   void redraw();
+  /// Draws a layer anew and reports the change.
+  void layerChanged(LayerId id);
   void paintImage(QPainter& painter) const;
   void paintLayer(QPainter& painter, std::size_t index);
   void paintGrid(QPainter& painter, const QRectF& band) const;

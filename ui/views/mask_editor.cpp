@@ -171,13 +171,12 @@ bool MaskEditor::pressKey(int key) {
 }
 
 bool MaskEditor::eventFilter(QObject* watched, QEvent* event) {
-  const bool override = event->type() == QEvent::ShortcutOverride;
-  if (tool_ == MaskTool::kNone || (!override && event->type() != QEvent::KeyPress))
-    return QObject::eventFilter(watched, event);
-  const int key = static_cast<QKeyEvent*>(event)->key();
-  if (!override) return pressKey(key);
-  if (key == Qt::Key_Escape) event->accept();  // while a run could be stopped by the same key
-  return key == Qt::Key_Escape;
+  if (tool_ == MaskTool::kNone) return QObject::eventFilter(watched, event);
+  if (event->type() == QEvent::KeyPress) return pressKey(static_cast<QKeyEvent*>(event)->key());
+  if (event->type() != QEvent::ShortcutOverride) return QObject::eventFilter(watched, event);
+  const bool escape = static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
+  if (escape) event->accept();  // while a run could be stopped by the same key
+  return escape;
 }
 
 }  // namespace boresight::ui

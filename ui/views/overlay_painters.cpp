@@ -210,7 +210,10 @@ constexpr double kCorner = 3.5;
 
 void paintTrack(QPainter& painter, const QPolygonF& track, double width, const QColor& color) {
   painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  track.size() == 1 ? painter.drawPoint(track.front()) : painter.drawPolyline(track);
+  if (track.size() == 1)
+    painter.drawPoint(track.front());
+  else
+    painter.drawPolyline(track);
 }
 
 /// Dark under bright: seen on any image.
@@ -223,9 +226,14 @@ void paintOutline(QPainter& painter, const QPolygonF& outline, const QColor& col
   for (const QPen& pen : previewPens(color)) {
     painter.setPen(pen);
     painter.setBrush(color);
-    filled ? painter.drawPolygon(outline) : painter.drawPolyline(outline);
+    if (filled)
+      painter.drawPolygon(outline);
+    else
+      painter.drawPolyline(outline);
   }
-  painter.setBrush(painter.pen().color());
+  QColor opaque = color;
+  opaque.setAlphaF(1.0);
+  painter.setBrush(opaque);
   if (!filled)
     for (const QPointF& corner : outline)
       painter.drawRect(

@@ -163,9 +163,12 @@ void nameApplication(QApplication& application) {
   application.setStyle(new ProgramStyle);
 }
 
-/// Each check returns a problem, or "".
 int runSelfTest(std::ostream& output) {
-  constexpr std::pair<const char*, std::string (*)()> kChecks[] = {
+  struct NamedCheck {
+    const char* name;
+    std::string (*problem)();  ///< "": passed
+  };
+  constexpr NamedCheck kChecks[] = {
       {"the example stations converge", checkRuns},
       {"pausing at every stage changes no bit", checkStepping},
       {"an edit survives a killed program", checkDocument},
@@ -173,15 +176,15 @@ int runSelfTest(std::ostream& output) {
       {"the window opens", checkWindow},
   };
   int failed = 0;
-  for (const auto& [name, check] : kChecks) {
+  for (const NamedCheck& check : kChecks) {
     std::string problem;
     try {
-      problem = check();
+      problem = check.problem();
     } catch (const std::exception& error) {
       problem = error.what();
     }
     if (!problem.empty()) ++failed;
-    output << (problem.empty() ? "passed  " : "FAILED  ") << name
+    output << (problem.empty() ? "passed  " : "FAILED  ") << check.name
            << (problem.empty() ? "" : ": " + problem) << "\n";
   }
   output << static_cast<int>(std::size(kChecks)) - failed << " passed, " << failed << " failed\n";

@@ -41,8 +41,7 @@ struct ScreenshotOrder {
   double* share = nullptr;  ///< receives the share of the window that shows the image
 };
 
-/// The share of the window, 0 .. 1, that shows the image: its part inside the view that no other
-/// widget covers.
+/// Share of the window's area, 0 .. 1, that shows the image.
 double imageShare(MainWindow& window);
 
 /// Shows a session with its unsaved edits without writing next to it: it is copied to `folder`,

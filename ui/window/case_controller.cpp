@@ -544,6 +544,7 @@ void CaseController::setOptions(const QString& profile, const LocalizerOptions& 
 }
 
 void CaseController::showRun(const std::string& digest) {
+  if (digest.empty()) return;  // findRun would take it for any run
   const sessions::RunRecord* found =
       sessions::findRun(document_.session(), case_id_.toStdString(), digest);
   if (!found || run_.state() == RunState::kWorking) return;

@@ -125,6 +125,8 @@ class CaseController : public QObject {
   const sessions::SessionCase* sessionCase() const;
   bool isLoaded() const;
   void dropRun();
+  /// Edits the shown case; `text` names the undo step, %1 being the case. False when nothing was
+  /// edited.
   bool editCase(const std::function<void(sessions::SessionCase&)>& change, const QString& text);
   void load(const QString& id);
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> loaded_case);

@@ -103,7 +103,7 @@ void CaseDetails::setSession(const sessions::Session& session) {
   if (!reading_) readNext();
 }
 
-/// False when it is known already.
+/// Starts reading the value of a key unless it is known; returns whether it started.
 template <class Value, class Read>
 bool CaseDetails::read(std::map<std::string, Value>& known, const std::string& key, Read make) {
   if (known.contains(key)) return false;

@@ -25,6 +25,7 @@ constexpr InputText kInputTexts[] = {
     {"mesh", "Meshes (*.ply *.obj *.stl *.gltf *.glb)"},
     {"seed", "Poses and transforms (*.json)"},
 };
+static_assert(std::size(kInputTexts) == sessions::kInputKinds);
 
 /// Empty when the operator has cancelled.
 std::string askUnit(QWidget& window, const QString& mesh, const std::string& former) {

@@ -16,6 +16,7 @@ namespace {
 /// In the order of `InputKind`.
 constexpr const char* kMissingNames[] = {"an image", "a camera (json)", "a mesh",
                                          "a seed pose (json)"};
+static_assert(std::size(kMissingNames) == sessions::kInputKinds);
 
 /// Adds a file of one kind to the files taken so far.
 using Take = void (*)(const std::filesystem::path& file, DroppedFiles& taken);

@@ -12,9 +12,7 @@
 namespace boresight::ui {
 
 using sessions::InputKind;
-
-inline constexpr std::array kAllInputs = {InputKind::kImage, InputKind::kCamera, InputKind::kMesh,
-                                          InputKind::kSeed};
+using sessions::kAllInputs;
 
 /// Kinds of files that were dropped or opened together.
 struct DroppedFiles {
@@ -28,8 +26,9 @@ struct DroppedFiles {
   std::vector<std::string> problems;  ///< one sentence each: files of an unknown kind, or two of
                                       ///< the same kind
 
-  bool has(InputKind kind) const;  ///< of a camera also in the image's label
-  /// "" when there is none; of a mesh the first part's.
+  /// Whether the file is there; for the camera, the image's label counts, too.
+  bool has(InputKind kind) const;
+  /// The file, or ""; for the mesh, that of the first part.
   std::filesystem::path fileOf(InputKind kind) const;
   /// The files of a case that are still missing, for the operator: "a camera and a seed", or "".
   std::string missing() const;

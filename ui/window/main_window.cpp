@@ -64,7 +64,8 @@ MainWindow::MainWindow(QWidget* parent)
   showDocument();
 }
 
-MainWindow::~MainWindow() = default;
+/// Panels use the parts, which are destroyed before them, when they are hidden.
+MainWindow::~MainWindow() { hide(); }
 
 ImagePanel& MainWindow::image() { return docks_->image; }
 

@@ -41,8 +41,8 @@ QueueLinks::QueueLinks(WindowParts& parts, const WindowDocks& docks, QObject* pa
             parts_.cases.chooseCase(id);
             goThere();
           });
-  connect(parent->findChild<QDockWidget*>(QStringLiteral("queue")), &QDockWidget::visibilityChanged,
-          &docks.queue, &QueuePanel::setInSight);
+  connect(&docks.dockOf(docks.queue), &QDockWidget::visibilityChanged, &docks.queue,
+          &QueuePanel::setInSight);
   parts_.state.onChange(ViewChange::kSnapshot, this, &QueueLinks::goThere);
   connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
     if (wanted_ && wanted_->case_id != id) wanted_.reset();  // another case was chosen meanwhile

@@ -19,7 +19,6 @@ class QueueLinks : public QObject {
   Q_OBJECT
 
  public:
-  /// `parent`: the window, which has the docks.
   QueueLinks(WindowParts& parts, const WindowDocks& docks, QObject* parent);
 
  private:

@@ -298,7 +298,7 @@ void SessionFiles::addCase(const QString& kept) {
   const FilesSituation files = situation();
   if (!files.problem.isEmpty()) {
     std::filesystem::path file = collected_.fileOf(*nextKind());
-    if (file.empty()) file = collected_.one.image;  // its label is the camera
+    if (file.empty()) file = collected_.one.image;  // the camera is in the image's label
     Q_EMIT failed(tr("%1: %2").arg(text(file.filename()), files.problem));
     return;
   }

@@ -24,7 +24,11 @@ void collect(const QList<QAction*>& actions, QList<KeyRow>& rows) {
 
 /// Keys that are no actions of a menu: those of the image, the scene, tables and the field for
 /// nudging, each where the pointer or the focus is.
-constexpr std::pair<const char*, const char*> kFixed[] = {
+struct FixedKey {
+  const char* keys;
+  const char* text;
+};
+constexpr FixedKey kFixed[] = {
     {"Esc", "Stop all jobs"},
     {"Image: wheel", "Zoom at the cursor"},
     {"Image: drag", "Move the image"},

@@ -27,12 +27,13 @@ struct SlotText {
   const char* question;
 };
 /// In the order of `InputKind`.
-constexpr SlotText kSlotTexts[sessions::kInputKinds] = {
+constexpr SlotText kSlotTexts[] = {
     {Icon::kImage, "Image", "png, jpg, tif, or with a VICAR, PDS3 or PDS4 label"},
     {Icon::kCamera, "Camera", "json or cahvor; an image's label may have it"},
     {Icon::kCube, "Mesh", "ply, obj, stl, gltf or glb"},
     {Icon::kTarget, "Seed", "The camera's approximate pose (json). Annotations can give it later."},
 };
+static_assert(std::size(kSlotTexts) == sessions::kInputKinds);
 
 QString headingText(const QString& title, const QString& caption) {
   return QStringLiteral("<b style='font-size:large'>%1</b>&nbsp; %2")
@@ -122,7 +123,7 @@ void StartPage::showSlot(InputKind kind) {
   file.name->setVisible(!name.isEmpty());
   file.detail->setText(detail);
   file.detail->setProperty("bad", bad);
-  file.remove->setVisible(!path.empty());  // a label's camera is the image's
+  file.remove->setVisible(!path.empty());  // a camera in the image's label cannot be removed alone
   restyle({file.detail, file.card, file.state});
 }
 

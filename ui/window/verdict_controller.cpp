@@ -2,8 +2,6 @@
 #include "ui/window/verdict_controller.h"
 
 #include <algorithm>
-#include <functional>
-#include <map>
 
 #include <QtWidgets>
 
@@ -196,64 +194,73 @@ void VerdictController::perform(Step step) {
   const auto& run = parts_.state.snapshot();
   if (run && run->finished && !run->converged())
     taken_.note(parts_.cases.caseId().toStdString(), run->digest, step);
-  const auto run_to_end = [this] { parts_.cases.advance(sessions::StepUntil::kEnd); };
-  const auto reveal = [this](const char* dock) {
-    return [this, dock] { workspaces_.reveal(QLatin1String(dock)); };
-  };
-  const auto ask_for_export = [this, step] { Q_EMIT exportRequested(step); };
-  ReviewController& review = docks_.review.controller();
-  const std::map<Step, std::function<void()>> actions = {
-      {Step::kChooseFiles, [this] { files_.askForNext(); }},
-      {Step::kChangeInput, [this] { changeInput(); }},
-      {Step::kFixFiles, [this] { findings_.repair(); }},
-      {Step::kRun, run_to_end},
-      {Step::kGoOn, run_to_end},
-      {Step::kRunAgain, [this] { parts_.cases.runAgain(); }},
-      {Step::kRunRest, [this] { parts_.cases.runRest(); }},
-      {Step::kStop, [this] { parts_.cases.stop(); }},
-      {Step::kShowBatch, reveal("queue")},
-      {Step::kReview, reveal("review")},
-      {Step::kInputs, reveal("inputs")},
-      {Step::kInspect, reveal("inspector")},
-      {Step::kCompetingPoses, reveal("hypotheses")},
-      {Step::kWiderSearch, [this] { parts_.cases.runWithWiderSearch(); }},
-      {Step::kNudgeSeed, [this] { nudgeSeed(); }},
-      {Step::kMask,
-       [this] {
-         workspaces_.reveal(QStringLiteral("mask"));
-         docks_.mask_editor.setTool(MaskTool::kBrush);
-       }},
-      {Step::kUncertainty, [this] { askForUncertainty(); }},
-      {Step::kAnnotate,
-       [this] {
-         workspaces_.show(Workspace::kAnnotate);
-         parts_.annotation.setMode(PlaceMode::kPoint);
-       }},
-      {Step::kSeedFromAnnotation,
-       [this] {
-         parts_.annotation.useAsSeed();
-         workspaces_.show(Workspace::kRun);
-       }},
-      {Step::kDisablePair, [this] { disablePair(); }},
-      {Step::kRobust, [this] { parts_.annotation.setRobust(true); }},
-      {Step::kConvergenceTest, [&] { review.startConvergenceTest(sessions::kConvergenceSeeds); }},
-      {Step::kStopTest, [&] { review.stopConvergenceTest(); }},
-      {Step::kValidate, [this] { askForDecision(ReviewController::Act::kValidate); }},
-      {Step::kExportPose, ask_for_export},
-      {Step::kReport, ask_for_export},
-      {Step::kNextCase,
-       [this] {
-         if (const QString next = nextCase(); !next.isEmpty()) parts_.cases.chooseCase(next);
-       }},
-      {Step::kFirstDifference,
-       [this] {
-         workspaces_.show(Workspace::kOnboard);
-         parts_.onboard.goToFirstDifference();
-       }},
-      {Step::kRepeatRecord, [this] { parts_.onboard.rerun(); }},
-      {Step::kLoadRecord, [this] { askForOnboardRecord(parts_.onboard, &window_); }},
-  };
-  if (const auto action = actions.find(step); action != actions.end()) action->second();
+  switch (step) {
+    case Step::kNone:
+      return;
+    case Step::kChooseFiles:
+      return files_.askForNext();
+    case Step::kChangeInput:
+      return changeInput();
+    case Step::kFixFiles:
+      return findings_.repair();
+    case Step::kRun:
+    case Step::kGoOn:
+      return parts_.cases.advance(sessions::StepUntil::kEnd);
+    case Step::kRunAgain:
+      return parts_.cases.runAgain();
+    case Step::kRunRest:
+      return parts_.cases.runRest();
+    case Step::kShowBatch:
+      return workspaces_.reveal(QStringLiteral("queue"));
+    case Step::kStop:
+      return parts_.cases.stop();
+    case Step::kReview:
+      return workspaces_.reveal(QStringLiteral("review"));
+    case Step::kWiderSearch:
+      return parts_.cases.runWithWiderSearch();
+    case Step::kNudgeSeed:
+      return nudgeSeed();
+    case Step::kMask:
+      workspaces_.reveal(QStringLiteral("mask"));
+      return docks_.mask_editor.setTool(MaskTool::kBrush);
+    case Step::kUncertainty:
+      return askForUncertainty();
+    case Step::kAnnotate:
+      workspaces_.show(Workspace::kAnnotate);
+      return parts_.annotation.setMode(PlaceMode::kPoint);
+    case Step::kInspect:
+      return workspaces_.reveal(QStringLiteral("inspector"));
+    case Step::kCompetingPoses:
+      return workspaces_.reveal(QStringLiteral("hypotheses"));
+    case Step::kInputs:
+      return workspaces_.reveal(QStringLiteral("inputs"));
+    case Step::kSeedFromAnnotation:
+      parts_.annotation.useAsSeed();
+      return workspaces_.show(Workspace::kRun);
+    case Step::kDisablePair:
+      return disablePair();
+    case Step::kRobust:
+      return parts_.annotation.setRobust(true);
+    case Step::kConvergenceTest:
+      return docks_.review.controller().startConvergenceTest(sessions::kConvergenceSeeds);
+    case Step::kStopTest:
+      return docks_.review.controller().stopConvergenceTest();
+    case Step::kValidate:
+      return askForDecision(ReviewController::Act::kValidate);
+    case Step::kExportPose:
+    case Step::kReport:
+      return exportRequested(step);
+    case Step::kNextCase:
+      if (const QString next = nextCase(); !next.isEmpty()) parts_.cases.chooseCase(next);
+      return;
+    case Step::kFirstDifference:
+      workspaces_.show(Workspace::kOnboard);
+      return parts_.onboard.goToFirstDifference();
+    case Step::kRepeatRecord:
+      return parts_.onboard.rerun();
+    case Step::kLoadRecord:
+      return askForOnboardRecord(parts_.onboard, &window_);
+  }
 }
 
 /// A mesh of an impossible size has the wrong unit, most often.

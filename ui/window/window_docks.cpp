@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/window_docks.h"
 
+#include <algorithm>
+
 #include <QtWidgets>
 
 #include "ui/annotation/ambiguity_view.h"
@@ -130,6 +132,11 @@ void WindowDocks::linkViews(WindowParts& parts) {
                    [this, &onboard = parts.onboard] {
                      compare.setOnboardRun(onboard.review() ? onboard.review()->replay : nullptr);
                    });
+}
+
+QDockWidget& WindowDocks::dockOf(const QWidget& panel) const {
+  return **std::ranges::find_if(
+      docks_, [&panel](const QDockWidget* dock) { return dock->isAncestorOf(&panel); });
 }
 
 void WindowDocks::add(const char* name, const char* title, QWidget* widget) {

@@ -68,6 +68,8 @@ class WindowDocks {
 
   /// In the order in which menus list them.
   const std::vector<QDockWidget*>& all() const { return docks_; }
+  /// The dock that holds a panel.
+  QDockWidget& dockOf(const QWidget& panel) const;
 
  private:
   void linkViews(WindowParts& parts);

@@ -349,22 +349,22 @@ void WindowMenus::showAbout() {
 void WindowMenus::undo() {
   docks_.poses.nudgeController().finishGesture();  // what is under way is undone first
   parts_.annotation.finishMove();
-  change(&Document::undo, tr("Undone: %1").arg(parts_.document.undoText()));
+  stepHistory(&Document::undo, tr("Undone: %1").arg(parts_.document.undoText()));
 }
 
 void WindowMenus::redo() {
-  change(&Document::redo, tr("Redone: %1").arg(parts_.document.redoText()));
+  stepHistory(&Document::redo, tr("Redone: %1").arg(parts_.document.redoText()));
 }
 
-void WindowMenus::change(bool (Document::*act)(), const QString& told) {
+void WindowMenus::stepHistory(bool (Document::*undo_or_redo)(), const QString& message) {
   const sessions::Session before = parts_.document.session();
-  if (!(parts_.document.*act)()) return;
+  if (!(parts_.document.*undo_or_redo)()) return;
   const auto changed = sessions::changedCases(before, parts_.document.session());
-  shown_change_ = told;
+  shown_change_ = message;
   if (!changed.empty() &&
       std::ranges::find(changed, parts_.cases.caseId().toStdString()) == changed.end()) {
     const QString other = fromText(changed.front());
-    shown_change_ = tr("%1, in %2 (now shown)").arg(told, other);
+    shown_change_ = tr("%1, in %2 (now shown)").arg(message, other);
     parts_.cases.chooseCase(other);
   }
   window_.statusBar()->showMessage(shown_change_);

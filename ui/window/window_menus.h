@@ -55,7 +55,7 @@ class WindowMenus : public QObject {
   /// An edit of a case other than the shown one also shows that case, with a message.
   void undo();
   void redo();
-  void change(bool (Document::*act)(), const QString& told);
+  void stepHistory(bool (Document::*undo_or_redo)(), const QString& message);
   void updateTogether(bool idle);
   void showSequence();
   void showRecent();

@@ -14,7 +14,8 @@
 
 namespace boresight::ui {
 
-/// Objects shared by the parts of the window. The window owns them, and they outlive the parts.
+/// Objects shared by the parts of the window. Destroyed before the window's child objects, whose
+/// destructors must not use them.
 struct WindowParts {
   Document document;
   ViewState state;

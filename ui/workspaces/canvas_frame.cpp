@@ -11,9 +11,14 @@
 namespace boresight::ui {
 namespace {
 
-/// Name in the style sheet and width of the frame in pixels, in the order of `CanvasSource`.
-constexpr std::pair<const char*, int> kFrames[] = {
+struct FrameLook {
+  const char* name;  ///< in the style sheet
+  int width_px;
+};
+/// In the order of `CanvasSource`.
+constexpr FrameLook kFrames[] = {
     {"", 0}, {"onboard", kOnboardFrame_px}, {"ground", kGroundFrame_px}};
+static_assert(std::size(kFrames) == static_cast<std::size_t>(CanvasSource::kGround) + 1);
 
 }  // namespace
 

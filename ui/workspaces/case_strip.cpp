@@ -19,12 +19,16 @@ struct Badge {
 };
 
 /// In the order of `CaseState`.
-constexpr Badge kBadges[kCaseStateCount] = {
-    {kBadgeNew, Icon::kDot, 2},          {kBadgeConverged, Icon::kCheck, 1},
-    {kBadgeFailed, Icon::kCross, 0},     {kBadgeAnnotated, Icon::kPencil, 1},
-    {kBadgeValidated, Icon::kShield, 3}, {kBadgeFailed, Icon::kFlag, 3},
-    {kBadgeRunning, Icon::kRun, 2},
+constexpr Badge kBadges[] = {
+    {kBadgeNew, Icon::kDot, 2},           // kNew
+    {kBadgeConverged, Icon::kCheck, 1},   // kConverged
+    {kBadgeFailed, Icon::kCross, 0},      // kFailed
+    {kBadgeAnnotated, Icon::kPencil, 1},  // kAnnotated
+    {kBadgeValidated, Icon::kShield, 3},  // kValidated
+    {kBadgeFailed, Icon::kFlag, 3},       // kRejected
+    {kBadgeRunning, Icon::kRun, 2},       // kRunning
 };
+static_assert(std::size(kBadges) == kCaseStateCount);
 
 const Badge& badgeOf(CaseState state) { return kBadges[static_cast<std::size_t>(state)]; }
 

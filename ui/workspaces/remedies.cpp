@@ -53,8 +53,8 @@ const char* doneText(Step step) {
       {Step::kUncertainty, QT_TRANSLATE_NOOP("Remedies", "stated uncertainty")},
       {Step::kAnnotate, QT_TRANSLATE_NOOP("Remedies", "annotations")},
   };
-  for (const auto& [of, text] : kTexts)
-    if (of == step) return text;
+  for (const auto& [done, text] : kTexts)
+    if (done == step) return text;
   return "";
 }
 
@@ -96,7 +96,7 @@ QString triedText(const std::vector<Remedy>& remedies) {
 
 /// What only shows something is no attempt.
 void RemedyMemory::note(const std::string& case_id, const std::string& digest, Step step) {
-  if (*doneText(step) != '\0') taken_[case_id].emplace_back(digest, step);
+  if (*doneText(step) != '\0') taken_[case_id].push_back({digest, step});
 }
 
 std::vector<Step> RemedyMemory::before(const std::string& case_id,

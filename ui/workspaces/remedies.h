@@ -41,8 +41,11 @@ class RemedyMemory {
   void clear() { taken_.clear(); }
 
  private:
-  /// By case: digests of failed runs, and what was done then.
-  std::map<std::string, std::vector<std::pair<std::string, Step>>> taken_;
+  struct Taken {
+    std::string digest;  ///< of the failed run
+    Step step;
+  };
+  std::map<std::string, std::vector<Taken>> taken_;  ///< by case
 };
 
 }  // namespace boresight::ui

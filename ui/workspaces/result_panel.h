@@ -20,10 +20,10 @@ class ResultPanel : public QWidget {
 
  private:
   struct Figure {
-    QLabel* name;
-    QLabel* value;
-    LimitBar* bar;
-    QLabel* needed;
+    QLabel* name = nullptr;
+    QLabel* value = nullptr;
+    LimitBar* bar = nullptr;
+    QLabel* needed = nullptr;
   };
 
   void setUpFigure(const Figure& figure);

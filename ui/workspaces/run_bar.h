@@ -41,7 +41,7 @@ class RunBar : public QFrame {
   QList<QToolButton*> run_buttons_;
   RunScrubber* scrubber_ = nullptr;
   QLabel* correction_ = nullptr;
-  QWidget* corrections_ = nullptr;  ///< the same of all iterations, as a curve
+  QWidget* corrections_ = nullptr;  ///< curve of the corrections of all iterations
   bool narrow_ = false;
 };
 

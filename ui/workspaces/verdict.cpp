@@ -18,13 +18,14 @@ using sessions::ReviewState;
 
 QString tr(const char* text) { return QCoreApplication::translate("Verdict", text); }
 
-/// The tone, with its icon.
+/// In the order of `VerdictTone`.
+constexpr Icon kToneIcons[] = {Icon::kInfo, Icon::kCheck, Icon::kCross, Icon::kWarning};
+static_assert(std::size(kToneIcons) == static_cast<std::size_t>(VerdictTone::kCaution) + 1);
+
+/// Sets the tone, and the icon of that tone.
 void setTone(Verdict& verdict, VerdictTone tone) {
   verdict.tone = tone;
-  verdict.icon = tone == VerdictTone::kGood      ? Icon::kCheck
-                 : tone == VerdictTone::kBad     ? Icon::kCross
-                 : tone == VerdictTone::kCaution ? Icon::kWarning
-                                                 : Icon::kInfo;
+  verdict.icon = kToneIcons[static_cast<std::size_t>(tone)];
 }
 
 QString stageName(Stage stage) {
@@ -317,12 +318,12 @@ Verdict ofSituation(const Situation& situation) {
   if (situation.workspace == Workspace::kStart && situation.files.added > 0)
     return ofFiles(situation.files);
   if (!situation.has_case) {
-    const bool read = situation.file_problem.isEmpty();
+    const bool files_found = situation.file_problem.isEmpty();
     return {.tone = VerdictTone::kBad,
             .icon = Icon::kCross,
             .head = tr("The case cannot be read."),
-            .sentence = read ? situation.load_problem : situation.file_problem,
-            .step = read ? Step::kInputs : Step::kFixFiles};
+            .sentence = files_found ? situation.load_problem : situation.file_problem,
+            .step = files_found ? Step::kInputs : Step::kFixFiles};
   }
   if (situation.workspace == Workspace::kAnnotate)
     return ofAnnotation(situation.annotation, situation.has_seed);

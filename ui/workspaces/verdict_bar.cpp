@@ -25,6 +25,7 @@ constexpr ToneLook kLooks[] = {
     {"bad", &Theme::failure_text},
     {"caution", &Theme::warning_text},
 };
+static_assert(std::size(kLooks) == static_cast<std::size_t>(VerdictTone::kCaution) + 1);
 
 }  // namespace
 

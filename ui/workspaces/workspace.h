@@ -35,7 +35,7 @@ struct WorkspaceInfo {
 };
 
 const WorkspaceInfo& workspaceInfo(Workspace workspace);
-/// Its name and help, translated.
+/// Translated name and help of a workspace.
 QString workspaceTitle(Workspace workspace);
 QString workspaceHelp(Workspace workspace);
 

@@ -94,7 +94,12 @@ class Entries {
 void readModel(const Entries& entries, CahvModel& cahv) {
   const std::string& text = entries.text("Model");
   const std::string name(trimmed(std::string_view(text).substr(0, text.find('='))));
-  std::optional<double> parameter = cahv.parameter;
+  const auto refuse = [&] {
+    throw InputError(
+        entries.file(), "Model",
+        "'" + oneLine(name) + "' is not known (CAHV, CAHVOR, CAHVORE1, CAHVORE2 or CAHVORE3,P)");
+  };
+  constexpr std::string_view kGeneral = "CAHVORE3,";
   if (name == "CAHV") {
     cahv.model = CameraModel::kCahv;
   } else if (name == "CAHVOR") {
@@ -102,19 +107,16 @@ void readModel(const Entries& entries, CahvModel& cahv) {
   } else if (name == "CAHVORE1" || name == "CAHVORE2") {
     cahv.model = CameraModel::kCahvore;
     cahv.type = name.back() - '0';
-  } else {
-    constexpr std::string_view kGeneral = "CAHVORE3,";
+  } else if (name.starts_with(kGeneral)) {
+    const auto parameter =
+        numberIn<double>(trimmed(std::string_view(name).substr(kGeneral.size())));
+    if (!parameter) refuse();
     cahv.model = CameraModel::kCahvore;
     cahv.type = 3;
-    parameter = name.starts_with(kGeneral)
-                    ? numberIn<double>(trimmed(std::string_view(name).substr(kGeneral.size())))
-                    : std::nullopt;
+    cahv.parameter = *parameter;
+  } else {
+    refuse();
   }
-  if (!parameter)
-    throw InputError(
-        entries.file(), "Model",
-        "'" + oneLine(name) + "' is not known (CAHV, CAHVOR, CAHVORE1, CAHVORE2 or CAHVORE3,P)");
-  cahv.parameter = *parameter;
 }
 
 std::string modelText(const CahvModel& cahv) {

@@ -59,7 +59,10 @@ bool contains(std::string_view text, std::string_view part) {
 }
 
 ParsedPose refused(PoseForm form, std::string problem) {
-  return {false, {}, form, 0.0, std::move(problem)};
+  ParsedPose parsed;
+  parsed.form = form;
+  parsed.problem = std::move(problem);
+  return parsed;
 }
 
 /// Six digits, whatever the locale.

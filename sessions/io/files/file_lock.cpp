@@ -113,14 +113,14 @@ bool FileLock::take() {
     ::close(descriptor);
     return false;
   }
-  const std::optional<LockHolder> named = readLockFile(file_);
+  const std::optional<LockHolder> holder = readLockFile(file_);
   // On a file system without flock the holder that the file names decides.
-  if (refused || (!locked && named && !hasEnded(*named))) {
+  if (refused || (!locked && holder && !hasEnded(*holder))) {
     ::close(descriptor);
-    other_ = named;
+    other_ = holder;
     return true;
   }
-  stale_ = named;
+  stale_ = holder;
   if (writeHolder(descriptor)) {
     descriptor_ = descriptor;
     return true;
@@ -128,8 +128,10 @@ bool FileLock::take() {
   const int error = errno;
   if (locked) ::unlink(file_.c_str());
   ::close(descriptor);
-  if (!locked) return true;
-  throw OutputError(file_, error == ENOSPC ? "no space left on the device" : std::strerror(error));
+  if (locked)
+    throw OutputError(file_,
+                      error == ENOSPC ? "no space left on the device" : std::strerror(error));
+  return true;  // neither flock nor a lock file: not held
 }
 
 FileLock::~FileLock() {

@@ -52,11 +52,8 @@ std::vector<fs::path> filesOfFolder(const fs::path& folder) {
     throw InputError(folder,
                      "has no image; images end in .png, .jpg, .jpeg, .tif, .tiff, .img or "
                      ".vic");
-  const auto key = [](const fs::path& file) {
+  std::ranges::sort(files, {}, [](const fs::path& file) {
     return std::pair(sortKey(file.filename().string()), file);
-  };
-  std::sort(files.begin(), files.end(), [&key](const fs::path& first, const fs::path& second) {
-    return key(first) < key(second);
   });
   return files;
 }

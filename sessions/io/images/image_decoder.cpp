@@ -31,17 +31,17 @@ std::size_t endOfJpeg(Bytes bytes) {
   return asText(bytes).find("\xff\xd9"sv, at);
 }
 
-/// Decoders accept files that lack their end: it is looked for here.
-std::string wholeContainerOf(const std::filesystem::path& file, Bytes bytes) {
+/// The container of a complete file. Decoders accept truncated files, so the end marker is checked.
+std::string completeContainerOf(const std::filesystem::path& file, Bytes bytes) {
   const char* known = imageContainerOf(bytes);
   if (known == nullptr)
     throw InputError(file,
                      "not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
                      "in it or next to it");
   const std::string container = known;
-  const std::size_t end = container == "PNG"    ? asText(bytes).find("IEND\xae\x42\x60\x82")
-                          : container == "JPEG" ? endOfJpeg(bytes)
-                                                : 0;
+  std::size_t end = 0;  // of a TIFF, requireEveryBlock checks the blocks
+  if (container == "PNG") end = asText(bytes).find("IEND\xae\x42\x60\x82");
+  if (container == "JPEG") end = endOfJpeg(bytes);
   if (end == std::string_view::npos) refuse(file, container, "is truncated");
   return container;
 }
@@ -77,7 +77,7 @@ int orientationOf(const std::string& container, Bytes bytes) {
 class OpenImage {
  public:
   OpenImage(const std::filesystem::path& file, Bytes bytes) : file_(file) {
-    header_.container = wholeContainerOf(file, bytes);
+    header_.container = completeContainerOf(file, bytes);
     const std::string driver = header_.container == "TIFF" ? "GTiff" : header_.container;
     dataset_ = openGdal(driver.c_str(), memory_.add("image", bytes));
     if (!dataset_) fail("is truncated, damaged, or of an unsupported kind");

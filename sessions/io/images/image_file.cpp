@@ -21,6 +21,7 @@ namespace {
 /// By BayerPattern; OpenCV names a pattern by its second line.
 constexpr int kDemosaicCodes[] = {cv::COLOR_BayerBG2BGR_EA, cv::COLOR_BayerRG2BGR_EA,
                                   cv::COLOR_BayerGB2BGR_EA, cv::COLOR_BayerGR2BGR_EA};
+static_assert(std::size(kDemosaicCodes) == std::size(kBayerPatternNames));
 constexpr int kSmallestMosaic_px = 4;  // a pixel is interpolated from the two lines round it
 
 void demosaic(const std::filesystem::path& file, BayerPattern pattern, cv::Mat& pixels) {

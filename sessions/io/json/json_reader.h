@@ -75,7 +75,7 @@ class JsonReader {
   JsonReader at(std::string_view key) const;
   /// Member of an object, or empty. A null counts as absent.
   std::optional<JsonReader> find(std::string_view key) const;
-  /// Sets `value` to what `read` gives for the member `key` of this object, where there is one.
+  /// Sets `value` to the result of `read` for the member `key`, if this object has it.
   template <class T, class Read>
   void optional(std::string_view key, T& value, const Read& read) const {
     if (const auto found = find(key)) value = std::invoke(read, *found);
@@ -84,7 +84,7 @@ class JsonReader {
   std::vector<JsonReader> elements() const;                         ///< of an array
   std::vector<JsonReader> elements(std::size_t count) const;        ///< of an array of `count`
 
-  /// The parsed value, for its kind.
+  /// The parsed value, to ask its kind only: members read through it do not count as used.
   const nlohmann::json& value() const { return *value_; }
 
   double number() const;

@@ -216,12 +216,19 @@ bool carriesUnit(MeshFormat format) {
 }
 
 MeshDeclaration checkMeshContainer(const MeshFiles& files) {
-  const MeshFormat format = files.format;
-  if (format == MeshFormat::kPly) return checkPly(files.file, files.bytes);
-  if (format == MeshFormat::kStl) return checkStl(files.file, files.bytes);
-  if (format == MeshFormat::kGlb) return checkGlb(files.file, files.bytes);
-  if (format == MeshFormat::kGltf) return checkGltfJson(files.file, asText(files.bytes));
-  return {};  // an OBJ file declares nothing
+  switch (files.format) {
+    case MeshFormat::kPly:
+      return checkPly(files.file, files.bytes);
+    case MeshFormat::kStl:
+      return checkStl(files.file, files.bytes);
+    case MeshFormat::kGlb:
+      return checkGlb(files.file, files.bytes);
+    case MeshFormat::kGltf:
+      return checkGltfJson(files.file, asText(files.bytes));
+    case MeshFormat::kObj:
+      break;  // declares nothing
+  }
+  return {};
 }
 
 MeshFiles readMeshFiles(const fs::path& file) {

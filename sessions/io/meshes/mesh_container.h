@@ -20,8 +20,9 @@ const char* meshFormatName(MeshFormat format);
 /// By the file's extension; InputError for any other than ply, obj, stl, gltf, glb.
 MeshFormat meshFormatOf(const std::filesystem::path& file);
 
-/// The same, empty for other extensions; and the message for such a file.
+/// The same; empty for other extensions.
 std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file);
+/// The message for a file of unknown format.
 std::string unknownMeshFormat(const std::filesystem::path& file);
 
 /// glTF is in metres; the other formats state no unit.
@@ -73,10 +74,11 @@ MeshDeclaration checkPly(const std::filesystem::path& file, std::span<const std:
 
 struct Mesh;
 
-/// Reads files of which the first passed checkMeshContainer, places every mesh by the transforms of
-/// its nodes, scales by `info.metres_per_unit`, and triangulates: sets the vertices and faces of
-/// `mesh`, not yet welded, and the counts of `info` that concern the file. Checks every index and
-/// coordinate, as the importer or the file may be faulty. Opens no file. InputError.
+/// Reads files of which the first passed checkMeshContainer, places every mesh by the
+/// transforms of its nodes, scales by `info.metres_per_unit`, and triangulates. Sets the
+/// vertices and faces of `mesh`, not yet welded, and the counts of `info` that concern the
+/// file; `info.file` is for messages. Checks every index and coordinate, as the importer or the
+/// file may be faulty. Opens no file. InputError.
 void importMesh(const MeshFiles& files, const MeshDeclaration& declared, Mesh& mesh);
 
 /// InputError when `count` of `what` exceeds `limit`.

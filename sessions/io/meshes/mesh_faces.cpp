@@ -195,13 +195,15 @@ bool triangulatePolygon(const std::vector<Eigen::Vector3f>& vertices,
                         std::span<const std::int32_t> corners, std::vector<Face>& triangles) {
   // Ear clipping takes up to n^3 steps, which only a damaged file makes long.
   constexpr std::size_t kMaxCorners = 1000;
-  std::vector<Face> ears;
-  if (corners.size() > 3 && corners.size() <= kMaxCorners) ears = earsOf(vertices, corners);
-  triangles.insert(triangles.end(), ears.begin(), ears.end());
-  if (!ears.empty()) return true;
-  for (std::size_t i = 2; i < corners.size(); ++i)
+  const bool clips = corners.size() > 3 && corners.size() <= kMaxCorners;
+  const std::vector<Face> ears = clips ? earsOf(vertices, corners) : std::vector<Face>();
+  if (!ears.empty()) {
+    triangles.insert(triangles.end(), ears.begin(), ears.end());
+    return true;
+  }
+  for (std::size_t i = 2; i < corners.size(); ++i)  // a fan
     triangles.push_back({{corners[0], corners[i - 1], corners[i]}});
-  return corners.size() == 3;
+  return corners.size() == 3;  // the fan of a triangle is the triangle itself
 }
 
 }  // namespace boresight::sessions

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSliverRatio = 1e-4;
 
-/// Metres per unit of a mesh of this unit; "" where none is stated or carried.
+/// Metres per `info.unit`. InputError when the unit is empty or unknown.
 double unitScale(const MeshInfo& info) {
   if (info.unit.empty())
     throw InputError(info.file, "mesh_unit",

@@ -42,7 +42,7 @@ int plyTypeSize(std::string_view type);
 /// The values of a body, one after the other. InputError where the file is truncated.
 class PlyValues {
  public:
-  /// All three must outlive this object.
+  /// `file` and `bytes` must outlive this object.
   PlyValues(const std::filesystem::path& file, const PlyHeader& header,
             std::span<const std::uint8_t> bytes)
       : file_(file), encoding_(header.encoding), body_(bytes.subspan(header.body)), rest_(body_) {}

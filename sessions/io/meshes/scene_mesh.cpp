@@ -74,8 +74,10 @@ SceneMesh readScene(std::span<const PartSource> parts, const FrameTree& frames,
       if (!parts[i].state.used() || part.frame != frame) continue;
       const MeshFiles files = readMeshFiles(part.mesh);
       if (check) check(i, files.sha256);
-      const ScenePart scene_part{part.normal_threshold_rad, part.depth_threshold_m,
-                                 part.state.matched(), frame == kCameraFrame};
+      const ScenePart scene_part{.normal_threshold_rad = part.normal_threshold_rad,
+                                 .depth_threshold_m = part.depth_threshold_m,
+                                 .match = part.state.matched(),
+                                 .fixed_to_camera = frame == kCameraFrame};
       addPart(scene, readMesh(files, part.mesh_unit), part.frame_from_mesh, scene_part,
               part.albedo.value_or(1.0));
     }

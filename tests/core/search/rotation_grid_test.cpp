@@ -68,13 +68,14 @@ TEST(RotationGrid, RotationsOfTheBox_HaveASampleWithinTheSpacing) {
 
 TEST(RotationGrid, Samples_AreApart) {
   Random random(2);
-  const std::vector<Eigen::Quaterniond> samples = samplesOf(rangeOf({180, 180, 180}, random));
+  const RotationGrid::Range range = rangeOf({180, 180, 180}, random);
+  const std::vector<Eigen::Quaterniond> samples = samplesOf(range);
   EXPECT_EQ(samples.size(), 188u * 24u);
   double nearest = 10.0;
   for (std::size_t i = 0; i < samples.size(); i += 7)
     for (std::size_t j = 0; j < samples.size(); ++j)
       if (i != j) nearest = std::min(nearest, angleBetween(samples[i], samples[j]));
-  EXPECT_GT(nearest, 0.85 * 15.0 * kDegree_rad);
+  EXPECT_GT(nearest, 0.85 * RotationGrid(range).spacing_rad());
 }
 
 TEST(RotationGrid, SmallBoxes_HaveFewSamples) {

@@ -28,7 +28,7 @@ std::string refusal(const std::function<void()>& act) {
 
 sessions::Annotations someAnnotations(Random& random) {
   sessions::Annotations annotations;
-  while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
+  while (annotations == sessions::Annotations()) annotations = randomAnnotations(random);
   return annotations;
 }
 

@@ -215,45 +215,56 @@ TEST(QueueOfExample, TheCsvHasALinePerCaseWhateverItHolds) {
   EXPECT_THAT(text, HasSubstr("\"a,\"\"b\"\"\",new,0,0,,,,,,0,0,,,not run yet"));
 }
 
-TEST(QueueOfExample, AThumbnailShowsTheStationsEdgesWhereTheImageHasThem) {
-  const auto loaded = loadCase(*exampleQueue().cases[0]);
-  const auto thumbnail = [&](const Pose& camera_from_station) {
+/// Thumbnails of the example's first case, 144 x 108, with the station's edges at a pose.
+class ThumbnailOfExample : public testing::Test {
+ protected:
+  ColorImage thumbnail(const Pose& camera_from_station) const {
     const OverlayLayer layer{"", camera_from_station, kResultColor, true};
-    return stationPicture(loaded->image.view(), loaded->source.camera, loaded->scene.view(),
+    return stationPicture(loaded_->image.view(), loaded_->source.camera, loaded_->scene.view(),
                           {&camera_from_station, 1}, {&layer, 1}, 144, 108);
-  };
-  const ColorImage picture = thumbnail(*loaded->source.camera_from_station_truth);
+  }
+  static bool isEdge(const ColorImage& image, std::size_t pixel) {
+    const std::uint8_t* bgr = image.bgr.data() + 3 * pixel;
+    return ColorBgr{bgr[0], bgr[1], bgr[2]} == kResultColor;
+  }
+  const std::shared_ptr<const LoadedCase> loaded_ = loadCase(*exampleQueue().cases[0]);
+  const Pose truth_ = *loaded_->source.camera_from_station_truth;
+};
+
+TEST_F(ThumbnailOfExample, ShowsTheStationsEdgesWhereTheImageHasThem) {
+  const ColorImage picture = thumbnail(truth_);
   EXPECT_LE(picture.width, 144);
   EXPECT_LE(picture.height, 108);
   EXPECT_TRUE(picture.width == 144 || picture.height == 108);
-  const auto isEdge = [](const ColorImage& of, std::size_t pixel) {
-    const std::uint8_t* bgr = of.bgr.data() + 3 * pixel;
-    return ColorBgr{bgr[0], bgr[1], bgr[2]} == kResultColor;
-  };
   int green = 0;
   for (std::size_t i = 0; i < picture.bgr.size() / 3; ++i) green += isEdge(picture, i);
   EXPECT_GT(green, picture.width) << "the station fills the picture";
+  Pose behind = truth_;
+  behind.translation_m.z() = -behind.translation_m.z();
+  EXPECT_GT(thumbnail(behind).width, 0) << "the whole image";
+}
+
+TEST_F(ThumbnailOfExample, OfADistantStation_ShowsAllOfItButDoesNotEnlargeItToFill) {
   const auto heightFrom = [&](double times_as_far) {
-    Pose far = *loaded->source.camera_from_station_truth;
+    Pose far = truth_;
     far.translation_m *= times_as_far;
     const ColorImage whole = thumbnail(far);
     EXPECT_EQ(whole.width, 144);
     EXPECT_EQ(whole.height, 108);
-    int highest = 107, lowest = 0;
+    int highest = whole.height - 1, lowest = 0;
     for (int y = 0; y < whole.height; ++y)
       for (int x = 0; x < whole.width; ++x) {
-        if (!isEdge(whole, static_cast<std::size_t>(144 * y + x))) continue;
-        EXPECT_TRUE(x > 0 && x < 143 && y > 0 && y < 107) << x << " " << y << ": cut off";
+        if (!isEdge(whole, static_cast<std::size_t>(whole.width * y + x))) continue;
+        EXPECT_TRUE(x > 0 && x < whole.width - 1 && y > 0 && y < whole.height - 1)
+            << x << " " << y << ": cut off";
         highest = std::min(highest, y);
         lowest = std::max(lowest, y);
       }
     return lowest - highest;
   };
   EXPECT_GT(heightFrom(3.0), 60) << "as large as fits";
-  EXPECT_LT(heightFrom(60.0), 40) << "no few pixels that fill the picture";
-  Pose behind = *loaded->source.camera_from_station_truth;
-  behind.translation_m.z() = -behind.translation_m.z();
-  EXPECT_GT(thumbnail(behind).width, 0) << "the whole image";
+  EXPECT_LT(heightFrom(60.0), 40)
+      << "a station of a few pixels is not enlarged to fill the picture";
 }
 
 }  // namespace

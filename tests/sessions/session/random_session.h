@@ -146,10 +146,10 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   return session_case;
 }
 
-inline sessions::Annotations randomAnnotation(Random& random) {
-  sessions::Annotations annotation;
+inline sessions::Annotations randomAnnotations(Random& random) {
+  sessions::Annotations annotations;
   for (std::uint32_t i = 1u + random.below(6); i > 0; --i) {
-    sessions::PointPair& point = annotation.points.emplace_back();
+    sessions::PointPair& point = annotations.points.emplace_back();
     point.id = "p" + std::to_string(i);
     point.point_in_station_m = randomVector(random, 0.3);
     if (coin(random))
@@ -160,17 +160,17 @@ inline sessions::Annotations randomAnnotation(Random& random) {
     if (coin(random)) point.comment = "at the\nsecond \"screw\" \xE2\x80\x93 unsure";
   }
   if (coin(random)) {
-    sessions::LinePair& line = annotation.lines.emplace_back();
+    sessions::LinePair& line = annotations.lines.emplace_back();
     line.id = "l1";
     line.edge = sessions::ModelEdge{randomVector(random, 0.3), randomVector(random, 0.3)};
   }
-  return annotation;
+  return annotations;
 }
 
 inline sessions::AnnotationRounds randomRounds(Random& random) {
   sessions::AnnotationRounds rounds;
   for (std::uint32_t i = 1u + random.below(3); i > 0; --i)
-    rounds.push_back({"Ada \xC3\x9C", "2026-01-31T23:59:59Z", randomAnnotation(random)});
+    rounds.push_back({"Ada \xC3\x9C", "2026-01-31T23:59:59Z", randomAnnotations(random)});
   return rounds;
 }
 
@@ -250,7 +250,7 @@ inline sessions::Session randomSession(Random& random) {
   for (std::uint32_t i = random.below(5); i > 0; --i) {
     const std::string id = "case " + std::to_string(i);
     session.cases.push_back(randomCase(random, id));
-    if (coin(random)) session = withAnnotations(session, id, randomAnnotation(random));
+    if (coin(random)) session = withAnnotations(session, id, randomAnnotations(random));
     if (coin(random)) session = withRounds(session, id, randomRounds(random));
     if (coin(random)) session.decisions.push_back(randomDecision(random, id));
     if (coin(random)) session.runs.push_back(randomRun(random, id));
@@ -278,7 +278,7 @@ inline sessions::Session randomEdit(Random& random, const sessions::Session& ses
     case 0:
       return withoutCase(session, session_case.id);
     case 1:
-      return withAnnotations(session, session_case.id, randomAnnotation(random));
+      return withAnnotations(session, session_case.id, randomAnnotations(random));
     case 2:
       return withOptions(session, "default", randomOptions(random));
     case 3:

@@ -385,7 +385,7 @@ TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
   { SessionDocument::create(folder / "s.json", withCase({}, randomCase(random, "a"))); }
   SessionDocument document = SessionDocument::open(folder / "s.json", Access::kReadOnly);
   SessionHistory history(document);
-  const Session next = withAnnotations(document.session(), "a", randomAnnotation(random));
+  const Session next = withAnnotations(document.session(), "a", randomAnnotations(random));
   EXPECT_NE(folder.message([&] { history.perform(next, "Mark"); }), "(nothing)");
   EXPECT_FALSE(history.canUndo());
   EXPECT_TRUE(document.session().annotations.empty());

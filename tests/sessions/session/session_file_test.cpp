@@ -78,7 +78,7 @@ json goodSession() {
   session_case.camera = makePinhole(100, 80, 200.0);
   session_case.image.eight_bit = {};
   Session session = withCase({}, session_case);
-  session = withAnnotations(session, "bc", randomAnnotation(random));
+  session = withAnnotations(session, "bc", randomAnnotations(random));
   session = withRounds(session, "bc", randomRounds(random));
   session.decisions.push_back({"bc", Verdict::kValidated, "Ada", "", "2026-01-31T23:59:59Z", ""});
   session.runs.push_back({"bc", std::string(64, 'a'), "/x", "converged", "0.1.0",

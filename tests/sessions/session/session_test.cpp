@@ -33,14 +33,14 @@ TEST(ChangedCases, ListsEditedCases) {
   Random random = randomFor("ChangedCases");
   Session before;
   for (const char* id : {"a", "b", "c"}) before = withCase(before, randomCase(random, id));
-  before = withAnnotations(before, "b", randomAnnotation(random));
+  before = withAnnotations(before, "b", randomAnnotations(random));
   EXPECT_THAT(changedCases(before, before), IsEmpty());
 
   sessions::SessionCase moved = *before.findCase("c");
   moved.camera_from_station_seed.translation_m.x() += 0.01;
   EXPECT_THAT(changedCases(before, withCase(before, moved)), ElementsAre("c"));
   EXPECT_THAT(changedCases(before, withAnnotations(before, "b", {})), ElementsAre("b"));
-  EXPECT_THAT(changedCases(before, withAnnotations(before, "a", randomAnnotation(random))),
+  EXPECT_THAT(changedCases(before, withAnnotations(before, "a", randomAnnotations(random))),
               ElementsAre("a"));
   EXPECT_THAT(changedCases(before, withCase(before, randomCase(random, "d"))), ElementsAre("d"));
   EXPECT_THAT(changedCases(before, withoutCase(before, "a")), IsEmpty());

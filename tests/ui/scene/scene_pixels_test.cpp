@@ -42,9 +42,9 @@ class ScenePixels : public ::testing::Test {
   void show(bool mesh, bool points) {
     const QMenu* show = view_.findChild<QToolButton*>(QStringLiteral("show"))->menu();
     for (QAction* action : show->actions())
-      if (action->isCheckable())
-        action->setChecked((mesh && action->text() == QStringLiteral("Mesh")) ||
-                           (points && action->text() == QStringLiteral("Template points")));
+      if (action->isCheckable()) action->setChecked(false);
+    view_.findChild<QAction*>(QStringLiteral("showMesh"))->setChecked(mesh);
+    view_.findChild<QAction*>(QStringLiteral("showPoints"))->setChecked(points);
   }
 
   /// With the image, which would else arrive between two pictures.

@@ -39,11 +39,7 @@ class SceneViewTest : public ::testing::Test {
   }
   void wheel(const QPointF& at, int notches) { test::turnWheel(*view_.canvas(), at, notches); }
   void press(Qt::Key key) { QTest::keyClick(view_.canvas(), key); }
-  void hidePoints() {
-    const QMenu* show = view_.findChild<QToolButton*>(QStringLiteral("show"))->menu();
-    for (QAction* action : show->actions())
-      if (action->text() == QStringLiteral("Template points")) action->setChecked(false);
-  }
+  void hidePoints() { view_.findChild<QAction*>(QStringLiteral("showPoints"))->setChecked(false); }
   const OrbitCamera& orbit() { return view_.navigation().orbit(); }
 
   QString readout() const {

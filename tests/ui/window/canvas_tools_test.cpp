@@ -182,8 +182,8 @@ TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
   const auto* found = palette.findChild<QListWidget*>(QStringLiteral("commands"));
   QTest::keyClicks(line, QStringLiteral("step iter"));
   ASSERT_GT(found->count(), 0);
-  EXPECT_TRUE(
-      found->item(0)->text().contains(action("stepIteration").text().remove(QLatin1Char('&'))));
+  EXPECT_TRUE(found->item(0)->text().contains(
+      QStringLiteral("> ") + action("stepIteration").text().remove(QLatin1Char('&'))));
   line->clear();
   QTest::keyClicks(line, QStringLiteral("nudge seed"));
   ASSERT_GT(found->count(), 0);

@@ -157,10 +157,10 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   whole_case_ = ui_.cases->columnWidth(CasesModel::kCase);
   // Headers would keep room for the sign of the order in every column.
   const QFontMetrics metrics = ui_.cases->fontMetrics();
-  const int error = std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
-                             metrics.horizontalAdvance(QStringLiteral("-00.000")));
+  const int error_width = 13 + std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
+                                        metrics.horizontalAdvance(QStringLiteral("-00.000")));
   for (int column = CasesModel::kNormal_mm; column <= CasesModel::kRotation_deg; ++column)
-    ui_.cases->setColumnWidth(column, error + 13);
+    ui_.cases->setColumnWidth(column, error_width);
   fitCaseColumn();
   setCurrent(current_);
 }

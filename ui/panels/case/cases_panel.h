@@ -20,7 +20,7 @@ class EmptyHint;
 
 /// In the order of sessions::ReviewState, with a state for runs under way in addition.
 enum class CaseState { kNew, kConverged, kFailed, kAnnotated, kValidated, kRejected, kRunning };
-inline constexpr int kCaseStateCount = 7;
+inline constexpr int kCaseStateCount = static_cast<int>(CaseState::kRunning) + 1;
 
 inline CaseState caseStateOf(sessions::ReviewState status) {
   return static_cast<CaseState>(status);

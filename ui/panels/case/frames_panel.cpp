@@ -22,11 +22,11 @@ QString placeText(const sessions::FrameRow& row) {
       .arg(numberText(place_mm.x(), 1), numberText(place_mm.y(), 1), numberText(place_mm.z(), 1));
 }
 
-/// In mm (first = 3) or mrad (first = 0).
-QString sigmaText(const sessions::FrameRow& row, int first) {
+/// The largest sigma of an axis, in mm or, of the rotation, in mrad.
+QString sigmaText(const sessions::FrameRow& row, bool of_rotation) {
   if (!row.transform) return {};
   if (!row.sigma) return FramesPanel::tr("exact");
-  return numberText(1e3 * row.sigma->segment<3>(first).maxCoeff(), 2);
+  return numberText(1e3 * row.sigma->segment<3>(of_rotation ? 0 : 3).maxCoeff(), 2);
 }
 
 QTreeWidgetItem* itemOf(const sessions::FrameRow& row, int index) {
@@ -34,8 +34,8 @@ QTreeWidgetItem* itemOf(const sessions::FrameRow& row, int index) {
   item->setData(kFrame, kRow, index);
   item->setText(kFrame, fromText(sessions::frameText(row.frame)));
   item->setText(kPlace, placeText(row));
-  item->setText(kSigma_mm, sigmaText(row, 3));
-  item->setText(kSigma_mrad, sigmaText(row, 0));
+  item->setText(kSigma_mm, sigmaText(row, false));
+  item->setText(kSigma_mrad, sigmaText(row, true));
   if (!row.transform) return item;
   const auto source = static_cast<std::size_t>(row.transform->origin);
   item->setText(kSource, fromText(sessions::kTransformSourceNames[source]));

@@ -59,7 +59,7 @@ struct StageText {
   const char* name;
   const char* help;
 };
-/// In the order of `Stage`.
+/// From Stage::kRender to Stage::kRefine, in the order of `Stage`.
 constexpr StageText kStageTexts[] = {
     {QT_TR_NOOP("Render"),
      QT_TR_NOOP("Show the edges rendered from the iteration's initial pose.")},
@@ -70,6 +70,8 @@ constexpr StageText kStageTexts[] = {
     {QT_TR_NOOP("Refine"),
      QT_TR_NOOP("Show the pose refined until rendered and image edges meet.")},
 };
+static_assert(std::size(kStageTexts) ==
+              static_cast<int>(Stage::kRefine) - static_cast<int>(Stage::kRender) + 1);
 
 const StageText& textOf(Stage stage) {
   return kStageTexts[static_cast<int>(stage) - static_cast<int>(Stage::kRender)];
@@ -278,8 +280,11 @@ void RunScrubber::showPlace() {
 
 void RunScrubber::go(Step step) {
   const RunCursor& cursor = view_.cursor();
-  if (step == Step::kPreviousStage || step == Step::kNextStage)
-    return view_.setCursor(stageFrom(*view_.snapshot(), cursor, step == Step::kNextStage ? 1 : -1));
+  if (step == Step::kPreviousStage || step == Step::kNextStage) {
+    if (const auto& run = view_.snapshot())
+      view_.setCursor(stageFrom(*run, cursor, step == Step::kNextStage ? 1 : -1));
+    return;
+  }
   const int target = step == Step::kFirst      ? -1
                      : step == Step::kPrevious ? cursor.iteration - 1
                      : step == Step::kNext     ? cursor.iteration + 1

@@ -230,6 +230,7 @@ void OptionsTable::describeIn(QLabel& help, const QString& prompt) {
 }
 
 void OptionsTable::showHelp() {
+  if (!help_) return;
   const QString help = currentIndex().data(Qt::ToolTipRole).toString();
   help_->setText(help.isEmpty() ? prompt_ : help);
 }

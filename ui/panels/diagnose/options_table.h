@@ -58,8 +58,8 @@ class OptionsTable : public QTableView {
   explicit OptionsTable(QWidget* parent = nullptr);
 
   OptionsModel& options() { return model_; }
-  /// Where the chosen option is described and refused edits are reported; `prompt` asks to choose
-  /// one. To be called before setOptions().
+  /// Sets the label that describes the chosen option and reports refused edits. It shows `prompt`
+  /// while no option is chosen.
   void describeIn(QLabel& help, const QString& prompt);
   /// Changes one of the owner's options. Returns false, and reports why, if the value is refused.
   template <class Options>
@@ -68,7 +68,7 @@ class OptionsTable : public QTableView {
       sessions::applyOptionText(options, name, value);
       return true;
     } catch (const sessions::OptionError& error) {
-      help_->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
+      if (help_) help_->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
       return false;
     }
   }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/run/nudge_box.h"
 
-#include <map>
-
 #include <QtWidgets>
 
 #include "core/base/math.h"
+#include "sessions/text/units.h"
+#include "ui/views/view_transform.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1e3;
+using sessions::kMillimetres;
 
 /// From the controller's units (rad, m) to the shown ones (deg, mm).
-double shownUnit(int axis) { return axis < 3 ? 1.0 / kDegree_rad : kMillimetresPerMetre; }
+double shownUnit(int axis) { return axis < 3 ? 1.0 / kDegree_rad : kMillimetres; }
 
 Eigen::Vector3d pivotInCamera_m(const Pose& camera_from_station, const NudgeFrame& frame) {
   if (frame.pivot == NudgePivot::kCameraCentre) return Eigen::Vector3d::Zero();
@@ -47,13 +47,9 @@ Vector6d nudgeBetween(const Pose& camera_from_station_base, const Pose& camera_f
 }
 
 Eigen::Vector3d directionOf(int key) {
-  static const std::map<int, Eigen::Vector3d> kDirections = {
-      {Qt::Key_Left, {-1.0, 0.0, 0.0}},  {Qt::Key_Right, {1.0, 0.0, 0.0}},
-      {Qt::Key_Up, {0.0, -1.0, 0.0}},    {Qt::Key_Down, {0.0, 1.0, 0.0}},
-      {Qt::Key_PageUp, {0.0, 0.0, 1.0}}, {Qt::Key_PageDown, {0.0, 0.0, -1.0}}};
-  const auto found = kDirections.find(key);
-  if (found == kDirections.end()) return Eigen::Vector3d::Zero();
-  return found->second;
+  const QPointF arrow = arrowOf(key);
+  return {arrow.x(), arrow.y(),
+          static_cast<double>((key == Qt::Key_PageUp) - (key == Qt::Key_PageDown))};
 }
 
 Eigen::Vector3d turnOf(const Eigen::Vector3d& direction) {
@@ -216,7 +212,7 @@ void NudgeBox::connectSettings() {
           [this](int index) { controller_.setAxes(static_cast<NudgeAxes>(index)); });
   connect(ui_.pivot, kIndexChanged, this,
           [this](int index) { controller_.setPivot(static_cast<NudgePivot>(index)); });
-  ui_.moveStep->setValue(kMillimetresPerMetre * controller_.step().translation_m);
+  ui_.moveStep->setValue(kMillimetres * controller_.step().translation_m);
   ui_.turnStep->setValue(controller_.step().rotation_rad / kDegree_rad);
   for (QDoubleSpinBox* box : {ui_.moveStep, ui_.turnStep})
     connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &NudgeBox::takeStep);
@@ -227,8 +223,7 @@ void NudgeBox::connectSettings() {
 }
 
 void NudgeBox::takeStep() {
-  controller_.setStep(
-      {ui_.moveStep->value() / kMillimetresPerMetre, ui_.turnStep->value() * kDegree_rad});
+  controller_.setStep({ui_.moveStep->value() / kMillimetres, ui_.turnStep->value() * kDegree_rad});
   for (int axis = 0; axis < 6; ++axis)
     values_[static_cast<std::size_t>(axis)]->setSingleStep(axis < 3 ? ui_.turnStep->value()
                                                                     : ui_.moveStep->value());

@@ -40,7 +40,8 @@ Vector6d nudgeBetween(const Pose& camera_from_station_base, const Pose& camera_f
 /// The direction in which a key moves, along the camera's x (right), y (down) and z (away); zero
 /// for keys that do not nudge.
 Eigen::Vector3d directionOf(int key);
-/// The rotation of such a key with Ctrl: the near side of the station goes where the arrow points.
+/// The rotation axis of a direction key pressed with Ctrl: the near side of the station moves in
+/// that direction.
 Eigen::Vector3d turnOf(const Eigen::Vector3d& direction);
 
 /// Sizes of one step.

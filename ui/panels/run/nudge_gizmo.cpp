@@ -145,7 +145,8 @@ void NudgeGizmo::release() {
   dragged_ = Part::kNone;
 }
 
-/// Moves in the plane through the station's middle, which stays under the pointer.
+/// Moves the station parallel to the image. The dragged point, at the depth of its middle, follows
+/// the pointer.
 void NudgeGizmo::movePixels(const QPointF& by_px) {
   const Camera& camera = state_.currentCase()->source.camera;
   const double depth_m = (pose() * nudge_.frame().centre_in_station_m).z();

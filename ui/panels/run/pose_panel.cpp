@@ -102,15 +102,17 @@ constexpr const char* kRotationHelp = QT_TR_NOOP(
 constexpr const char* kQuaternionHelp =
     QT_TR_NOOP("Unit quaternion of camera_from_station, in the order w x y z, with w >= 0");
 
-constexpr const char* kFigures[] = {QT_TR_NOOP("x, mm"),       QT_TR_NOOP("y, mm"),
-                                    QT_TR_NOOP("z, mm"),       QT_TR_NOOP("turn x, deg"),
-                                    QT_TR_NOOP("turn y, deg"), QT_TR_NOOP("turn z, deg"),
-                                    QT_TR_NOOP("quat. w"),     QT_TR_NOOP("quat. x"),
-                                    QT_TR_NOOP("quat. y"),     QT_TR_NOOP("quat. z")};
-
-const char* helpOfFigure(int row) {
-  return row < 3 ? kTranslationHelp : row < 6 ? kRotationHelp : kQuaternionHelp;
-}
+struct Figure {
+  const char* name;
+  const char* help;
+};
+constexpr Figure kFigures[] = {
+    {QT_TR_NOOP("x, mm"), kTranslationHelp},    {QT_TR_NOOP("y, mm"), kTranslationHelp},
+    {QT_TR_NOOP("z, mm"), kTranslationHelp},    {QT_TR_NOOP("turn x, deg"), kRotationHelp},
+    {QT_TR_NOOP("turn y, deg"), kRotationHelp}, {QT_TR_NOOP("turn z, deg"), kRotationHelp},
+    {QT_TR_NOOP("quat. w"), kQuaternionHelp},   {QT_TR_NOOP("quat. x"), kQuaternionHelp},
+    {QT_TR_NOOP("quat. y"), kQuaternionHelp},   {QT_TR_NOOP("quat. z"), kQuaternionHelp},
+};
 
 /// The figures of a pose, in the order of `kFigures`; zeros have no sign.
 QStringList figuresOf(const Pose& pose) {
@@ -150,11 +152,11 @@ void PosePanel::buildTable() {
   for (int i = 0; i < kPoseRoles; ++i) titles << poseRoleName(static_cast<PoseRole>(i));
   ui_.poses->setColumnCount(static_cast<int>(titles.size()));
   ui_.poses->setHorizontalHeaderLabels(titles);
-  for (const char* figure : kFigures) {
+  for (const Figure& figure : kFigures) {
     const int row = ui_.poses->rowCount();
-    addRow(*ui_.poses, {tr(figure), {}, {}, {}, {}, {}});
+    addRow(*ui_.poses, {tr(figure.name), {}, {}, {}, {}, {}});
     for (int column = 0; column < titles.size(); ++column)
-      ui_.poses->item(row, column)->setToolTip(tr(helpOfFigure(row)));
+      ui_.poses->item(row, column)->setToolTip(tr(figure.help));
   }
   ui_.poses->setFixedHeight(
       ui_.poses->verticalHeader()->defaultSectionSize() * (ui_.poses->rowCount() + 1) + kFrame_px);

@@ -47,8 +47,8 @@ class PosePanel : public QWidget {
   ~PosePanel() override;
 
   void setJudgement(const PoseJudgement& judgement);
-  /// Reports each gesture (a key held down, a drag, a pasted pose, a pose dropped) as one edit. On
-  /// other widgets that take the nudging keys it is to be installed as an event filter.
+  /// Emits gestureFinished once a gesture: a key held down, a drag, a pasted pose, a dropped pose.
+  /// Install it as an event filter on other widgets that take the nudging keys.
   NudgeController& nudgeController() { return controller_; }
 
   /// Copies a pose to the clipboard, if it exists.

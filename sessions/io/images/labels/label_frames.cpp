@@ -79,13 +79,16 @@ void groupFrames(LabelFormat format, const json& label, std::vector<LabelFrame>&
   }
 }
 
-/// The numbers of an element's children of these names; without those in a unit other than metres.
-std::vector<double> elementNumbers(const json* element, std::initializer_list<const char*> names) {
+/// The numbers of an element's children of these names; without those in a unit not among `units`,
+/// if any are given.
+std::vector<double> elementNumbers(const json* element, std::initializer_list<const char*> names,
+                                   std::initializer_list<std::string_view> units = {}) {
   std::vector<double> numbers;
   for (const char* name : names) {
     const json* value = labelMember(element, name);
     const auto number = labelNumber(value);
-    if (number && isOneOf(labelUnit(value), {"", "M"})) numbers.push_back(*number);
+    if (number && (units.size() == 0 || isOneOf(labelUnit(value), units)))
+      numbers.push_back(*number);
   }
   return numbers;
 }
@@ -118,7 +121,7 @@ void elementFrames(const json& label, std::vector<LabelFrame>& frames,
     const json* quaternion = labelMember(definition, "Quaternion_Plus_Direction");
     std::optional<Pose> pose =
         poseOf(elementNumbers(labelMember(definition, "Vector_Origin_Offset"),
-                              {"x_position", "y_position", "z_position"}),
+                              {"x_position", "y_position", "z_position"}, {"", "M"}),
                elementNumbers(quaternion, {"qcos", "qsin1", "qsin2", "qsin3"}));
     // "Forward" maps the frame's vectors into its reference, as the groups of PDS3 do.
     const auto direction = labelText(labelMember(quaternion, "rotation_direction"));

@@ -212,11 +212,12 @@ std::vector<std::pair<std::string, const json*>> labelGroups(LabelFormat format,
 
 const json* labelItem(LabelFormat format, const json& label,
                       std::initializer_list<std::string_view> groups, std::string_view key) {
-  const auto all = labelGroups(format, label);
+  const auto named_groups = labelGroups(format, label);
   for (const std::string_view name : groups) {
-    const auto group =
-        std::find_if(all.begin(), all.end(), [name](const auto& one) { return one.first == name; });
-    if (group == all.end()) continue;
+    const auto group = std::ranges::find(named_groups, name, [](const auto& named_group) {
+      return std::string_view(named_group.first);
+    });
+    if (group == named_groups.end()) continue;
     if (const json* value = labelMember(group->second, key)) return value;
   }
   return nullptr;

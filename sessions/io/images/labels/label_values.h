@@ -64,7 +64,8 @@ std::optional<BitPattern> bitPattern(std::string_view text);
 /// may occur twice. Empty for PDS4.
 std::vector<std::pair<std::string, const nlohmann::json*>> labelGroups(LabelFormat format,
                                                                        const nlohmann::json& label);
-/// The value of the first of these groups that has one, or null; of groups of one name the first.
+/// The first value of `key` in these groups, in this order; null without one. Of several groups of
+/// one name only the first counts.
 const nlohmann::json* labelItem(LabelFormat format, const nlohmann::json& label,
                                 std::initializer_list<std::string_view> groups,
                                 std::string_view key);

@@ -40,7 +40,7 @@ TEST_F(InputSheetPanelTest, ShowsTheLinesOfASheet_ChosenOnesAreCopied) {
   EXPECT_EQ(table->rowCount(), 0);
 }
 
-TEST_F(InputSheetPanelTest, RedFlagsComeFirstInPlainSentences) {
+TEST_F(InputSheetPanelTest, RedFlags_AreListedInPlainSentences) {
   sessions::InputSheet sheet = someSheet();
   sheet.flags = {{"station_size", "the station is 1000 times too large"}, {"other", "also this"}};
   panel_.setSheet(sheet);
