@@ -2,7 +2,6 @@
 #include "sessions/session/session_of_results.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include "sessions/io/json/config_file.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/session/session_maker.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -92,7 +92,7 @@ std::optional<ListedResult> listedResult(const SessionCase& session_case) {
     result.status = tag.substr(kTag.size(), colon - kTag.size());
     result.completed = result.status == "converged";
     if (colon != std::string::npos)
-      result.error_share = std::strtod(tag.c_str() + colon + 1, nullptr);
+      result.error_share = numberIn<double>(std::string_view(tag).substr(colon + 1));
     return result;
   }
   return std::nullopt;

@@ -2,11 +2,12 @@
 #include "sessions/text/plain_text.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+
+#include <locale.h>
 
 namespace boresight::sessions {
 namespace {
@@ -43,6 +44,22 @@ bool isShown(const Character& character) {
       code == 0x61c || within(0x200e, 0x200f) || within(0x202a, 0x202e) || within(0x2066, 0x2069);
   return character.valid && !control && !direction;
 }
+
+/// The calling thread formats numbers as in the C locale while this lives.
+class PlainLocale {
+ public:
+  PlainLocale() : before_(::uselocale(plain())) {}
+  PlainLocale(const PlainLocale&) = delete;
+  PlainLocale& operator=(const PlainLocale&) = delete;
+  ~PlainLocale() { ::uselocale(before_); }
+
+ private:
+  static locale_t plain() {
+    static const locale_t c_locale = ::newlocale(LC_ALL_MASK, "C", nullptr);
+    return c_locale;
+  }
+  locale_t before_;
+};
 
 }  // namespace
 
@@ -104,12 +121,17 @@ std::string asSentence(std::string clause) {
 }
 
 std::string formatText(const char* pattern, ...) {
-  std::array<char, 640> text{};
+  const PlainLocale plain;
   va_list arguments;
   va_start(arguments, pattern);
-  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_list measured;
+  va_copy(measured, arguments);
+  const int length = std::vsnprintf(nullptr, 0, pattern, measured);
+  va_end(measured);
+  std::string text(static_cast<std::size_t>(std::max(length, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, arguments);
   va_end(arguments);
-  return text.data();
+  return text;
 }
 
 std::string threeDigits(double value) { return formatText("%.3g", value); }

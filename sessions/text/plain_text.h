@@ -40,7 +40,7 @@ std::string sizeText(std::int64_t width, std::int64_t height);
 /// A clause with its first letter in upper case and a full stop at its end; "" stays "".
 std::string asSentence(std::string clause);
 
-/// As printf, at most 639 characters.
+/// As printf in the C locale, whatever locale the program or the calling thread has.
 [[gnu::format(printf, 1, 2)]] std::string formatText(const char* pattern, ...);
 
 /// "%.3g": at most three significant digits, such as "0.02".

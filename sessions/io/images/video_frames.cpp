@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include <opencv2/videoio.hpp>
@@ -29,9 +28,7 @@ class Video final : public FrameSource {
   std::optional<Frame> next() override {
     cv::Mat pixels;
     if (!capture_.read(pixels) || pixels.empty()) return std::nullopt;
-    std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "frame %06lld", ++last_);
-    Frame frame{name.data(), std::nullopt, ""};
+    Frame frame{formatText("frame %06lld", ++last_), std::nullopt, ""};
     try {
       frame.image = grayImageOf(file_, pixels);
     } catch (const FileError& error) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/io/meshes/mesh_faces.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -55,12 +55,7 @@ void measure(Mesh& mesh) {
 }  // namespace
 
 std::string lengthText(double length_m) {
-  char buffer[48];
-  if (length_m < 1.0)
-    std::snprintf(buffer, sizeof(buffer), "%.4g mm", 1000.0 * length_m);
-  else
-    std::snprintf(buffer, sizeof(buffer), "%.4g m", length_m);
-  return buffer;
+  return length_m < 1.0 ? formatText("%.4g mm", 1000.0 * length_m) : formatText("%.4g m", length_m);
 }
 
 std::optional<double> metresPerUnit(const std::string& unit) {

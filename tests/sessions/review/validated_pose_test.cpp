@@ -18,6 +18,7 @@
 #include "sessions/session/case_run.h"
 #include "sessions/trace/trace_file.h"
 #include "tests/support/annotated_example.h"
+#include "tests/support/comma_locale.h"
 #include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -414,6 +415,16 @@ TEST_F(ValidatedPose, OfAnnotationsIsMeasuredLikeThatOfARun) {
   });
   expectRefused("the covariance differs",
                 [](sessions::Decision& decision) { decision.pose->covariance.mesh_scale *= 0.99; });
+}
+
+TEST_F(ValidatedPose, InALocaleWithDecimalComma_HasTheSameChecksAndVerifies) {
+  const fs::path file = writeValidated();
+  const ordered_json checks = read(file)["checks"];
+  const CommaLocale locale;
+  if (!locale.active()) GTEST_SKIP() << "localedef cannot build de_DE.UTF-8 here";
+  verified(file);
+  validate();
+  EXPECT_EQ(read(write())["checks"], checks);
 }
 
 TEST_F(ValidatedPose, OptionsThatHaveChangedSinceAreThoseOfItsRun) {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <clocale>
 #include <string>
 
 #include "sessions/io/files/errors.h"
+#include "tests/support/comma_locale.h"
 
 namespace boresight::sessions {
 namespace {
@@ -51,6 +53,20 @@ TEST(OneLine, MergesBlanks) {
                           "2J' is \x1b[1m bad")
                    .what(),
                "a .json: id: ' 2J' is [1m bad");
+}
+
+TEST(FormatText, InALocaleWithDecimalComma_HasAPoint) {
+  const test::CommaLocale locale;
+  if (!locale.active()) GTEST_SKIP() << "localedef cannot build de_DE.UTF-8 here";
+  EXPECT_EQ(formatText("%.2f mm of %d", 1234.5, 10000), "1234.50 mm of 10000");
+  EXPECT_EQ(threeDigits(0.0212), "0.0212");
+  EXPECT_STREQ(std::localeconv()->decimal_point, ",") << "the caller's locale is restored";
+}
+
+TEST(FormatText, LongText_IsWhole) {
+  const std::string name(5000, 'n');
+  EXPECT_EQ(formatText("<%s>", name.c_str()), "<" + name + ">");
+  EXPECT_EQ(formatText("%s", ""), "");
 }
 
 }  // namespace
