@@ -105,8 +105,8 @@ LayerBits layerBits(std::shared_ptr<const void> owner, const BitImage& bits, int
 
 /// An area of a pyramid level on the full image.
 QRectF areaOf(double left, double top, double right, double bottom, int level) {
-  return {pointOf(sessions::fullImagePixel(left, top, level)),
-          pointOf(sessions::fullImagePixel(right, bottom, level))};
+  return {pointOf(atFullResolution({left, top}, level)),
+          pointOf(atFullResolution({right, bottom}, level))};
 }
 
 QRectF templateArea(const sessions::IterationTrace& iteration, std::size_t index) {

@@ -81,10 +81,10 @@ TEST(ScoreMap, IsNothingWhereNothingCanBeSearchedOrStopped) {
   EXPECT_FALSE(scoreMap(*exampleTrace().edges, first, 3, stopped.get_token()));
 }
 
-TEST(FullImagePixel, IsTheCentreOfTheBlockThatAPixelCovers) {
-  EXPECT_EQ(fullImagePixel(3.0, 4.0, 0), Eigen::Vector2d(3.0, 4.0));
+TEST(AtFullResolution, IsTheCentreOfTheBlockThatAPixelCovers) {
+  EXPECT_EQ(atFullResolution({3.0, 4.0}, 0), Eigen::Vector2d(3.0, 4.0));
   // Pixel 0 of level 2 covers pixels 0 .. 3.
-  EXPECT_EQ(fullImagePixel(0.0, 1.0, 2), Eigen::Vector2d(1.5, 5.5));
+  EXPECT_EQ(atFullResolution({0.0, 1.0}, 2), Eigen::Vector2d(1.5, 5.5));
 }
 
 TEST(MatchDetails, EqualTheRecordedIteration) {
