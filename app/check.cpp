@@ -69,6 +69,11 @@ sessions::Session judgedBy(const sessions::Session& session, const std::string& 
 CheckedCase checkCase(const sessions::Session& session, const std::string& id,
                       const CheckArguments& arguments) {
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
+  if (arguments.poseSource() == PoseSource::kRun) {
+    const sessions::RunRecord& run = sessions::currentRunOf(session, id);
+    if (sessions::stalenessOf(run, session, arguments.session).options_changed)
+      note(id + ": the run was made with other options than the session has now");
+  }
   const auto subject = sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)),
                                                arguments.poseSource());
   const auto convergence = sessions::convergenceTest(subject, arguments.convergence);
@@ -122,7 +127,8 @@ int checkSession(const CheckArguments& arguments) {
 void addCheck(CLI::App& app, int& exit_code) {
   addCommand(app, exit_code, "check",
              "Checks the poses of a session, with --convergence-test also from further seeds. "
-             "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check",
+             "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check, or the inputs have "
+             "changed since the run",
              checkSession);
 }
 

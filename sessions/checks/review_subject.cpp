@@ -45,7 +45,7 @@ std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& l
                                      const SessionCase& other, const RunReader& read_run) {
   const SessionCase& session_case = loaded.source;
   const RunRecord* run = ownRunOf(session, other.id, session_case.id);
-  if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
+  if (run == nullptr || inputsChangedSince(*run, session) ||
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
   const LocalizationTrace seen = read_run(*run);

@@ -24,11 +24,7 @@ bool converged(const RunRecord* run) {
   return run != nullptr && run->status == localizationStatusText(LocalizationStatus::kConverged);
 }
 
-void takeRun(const SessionCase& session_case, const RunRecord& run, HandedPose& pose) {
-  if (run.inputs_sha256 != inputsDigest(session_case))
-    throw InputError(
-        "session", "runs",
-        "the inputs of case '" + session_case.id + "' have changed since its run: run it again");
+void takeRun(const RunRecord& run, HandedPose& pose) {
   const LocalizationTrace trace = loadRun(run);
   pose.source = PoseSource::kRun;
   pose.camera_from_station = trace.camera_from_station;
@@ -132,7 +128,7 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
         "session", "decisions",
         "the decision on case '" + case_id + "' belongs to a run that did not converge");
   if (of_run)
-    takeRun(session_case, *run, pose);
+    takeRun(currentRunOf(session, case_id), pose);
   else
     takeAnnotations(session, session_case, pose);
   if (decision != nullptr) takeDecision(*decision, pose);

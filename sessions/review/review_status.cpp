@@ -299,8 +299,7 @@ std::string validationConcern(const Session& session, const ReviewSubject& subje
   const RunRecord* last = session.lastRunOf(id);
   if (last == nullptr || last->digest != subject.run->digest)
     return "this is not the last run of the case; review the last run, or run again";
-  if (last->inputs_sha256 != inputsDigest(*session_case))
-    return "the inputs have changed since the run: run again";
+  if (inputsChangedSince(*last, session)) return "the inputs have changed since the run: run again";
   return "";
 }
 

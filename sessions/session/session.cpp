@@ -244,13 +244,27 @@ std::string viewsDigest(const Session& session, const std::vector<std::string>& 
   return hexText(writer.digest()).data();
 }
 
+bool inputsChangedSince(const RunRecord& run, const Session& session) {
+  const SessionCase* session_case = session.findCase(run.case_id);
+  if (session_case == nullptr || run.inputs_sha256 != inputsDigest(*session_case)) return true;
+  return run.together &&
+         run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together));
+}
+
+const RunRecord& currentRunOf(const Session& session, const std::string& case_id) {
+  const RunRecord* run = session.lastRunOf(case_id);
+  if (run == nullptr) throw InputError("case " + case_id, "runs", "it has no run: run it first");
+  if (inputsChangedSince(*run, session))
+    throw InputError("case " + case_id, "runs",
+                     "the inputs have changed since the last run: run it again");
+  return *run;
+}
+
 Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file) {
   const SessionCase* session_case = session.findCase(run.case_id);
   if (session_case == nullptr) return {true, false};
-  const bool others_changed =
-      run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together));
-  return {others_changed || run.inputs_sha256 != inputsDigest(*session_case),
+  return {inputsChangedSince(run, session),
           run.options_sha256 != optionsDigest(caseOptions(session, *session_case, file))};
 }
 

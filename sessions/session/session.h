@@ -210,7 +210,13 @@ struct Staleness {
 
   bool stale() const { return inputs_changed || options_changed; }
 };
-/// A run of a case that no longer exists has changed inputs.
+/// Whether a run has other inputs than its case has now, or is of a case that no longer exists; of
+/// a run of several views the inputs of each count. Options do not: the pose stays the one that the
+/// run found.
+bool inputsChangedSince(const RunRecord& run, const Session& session);
+/// The last run of a case. InputError when there is none, or its inputs have changed since.
+const RunRecord& currentRunOf(const Session& session, const std::string& case_id);
+/// inputsChangedSince(), and whether the options at the end of the run are the case's.
 Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file);
 
