@@ -161,7 +161,8 @@ int compare(const CompareArguments& arguments) {
 void addCompare(CLI::App& app, int& exit_code) {
   addCommand(app, exit_code, "compare",
              "Compares two runs and prints their first difference. Exit status: 0 equal to the "
-             "bit, 5 within the limits for other pixels or a cut record, 6 different. A run is "
+             "bit, 5 within the limits for other pixels or a cut record, 6 different or not "
+             "comparable. A run is "
              "an onboard record (run.whsr), a trace, or a run of a session's case (--case)",
              compare);
 }

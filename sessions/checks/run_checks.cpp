@@ -7,6 +7,7 @@
 
 #include "sessions/checks/generalized_eigen.h"
 #include "sessions/decision/check.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/trace/match_details.h"
 #include "sessions/trace/run_text.h"
 
@@ -185,11 +186,11 @@ void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
 
 constexpr CheckName kOnboard{"agreement_onboard", "Agreement with the onboard record"};
 
-/// The first difference and those beyond limits.
+/// The first difference and those beyond limits, a sentence each.
 std::string differenceText(const RecordComparison& compared) {
   std::string text;
-  if (compared.first) text = compared.first->text;
-  for (const std::string& beyond : compared.beyond) text += (text.empty() ? "" : " ") + beyond;
+  if (compared.first) text += " " + asSentence(compared.first->text);
+  for (const std::string& beyond : compared.beyond) text += " " + asSentence(beyond);
   return text;
 }
 
@@ -218,6 +219,12 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
     checks.push_back(notAskedCheck(kOnboard, "The case has no onboard record, or was not run."));
     return;
   }
+  if (subject.onboard->verdict != RunVerdict::kDifferent && !subject.onboard->showsAgreement()) {
+    std::string why = "The onboard record does not show whether the runs agree.";
+    for (const std::string& missing : subject.onboard->missing) why += " " + asSentence(missing);
+    checks.push_back(notAskedCheck(kOnboard, why));
+    return;
+  }
   const std::string difference = differenceText(*subject.onboard);
   const auto add = [&checks](bool passed, const std::string& found, const char* remedy) {
     checks.push_back(statedCheck(kOnboard, passed, found, remedy));
@@ -226,9 +233,10 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
     case RunVerdict::kEqual:
       return add(true, "The run equals the onboard run to the bit.", "");
     case RunVerdict::kWithinLimits:
-      return add(true, "The run agrees with the onboard run within limits. " + difference, "");
+      return add(true, "The run agrees with the onboard run within limits." + difference, "");
+    case RunVerdict::kUndecided:
     case RunVerdict::kDifferent:
-      return add(false, "The run differs from the onboard run. " + difference,
+      return add(false, "The run differs from the onboard run." + difference,
                  "Compare both runs: the checked run is not the onboard run.");
   }
 }

@@ -268,7 +268,10 @@ void compareIterations(const OnboardRecord& record, const OnboardRecord& other,
 
 void compareEnds(const OnboardRecord& record, const OnboardRecord& other,
                  RecordComparison& comparison) {
-  if (!record.end || !other.end) return;
+  comparison.inputs_compared =
+      record.inputs && other.inputs && !record.options.empty() && !other.options.empty();
+  comparison.ends_compared = record.end && other.end;
+  if (!comparison.ends_compared) return;
   const Vector6d xi =
       exactPerturbation(record.end->camera_from_station, other.end->camera_from_station);
   setDistance(xi, comparison);
@@ -291,7 +294,7 @@ void holdToLimits(const OnboardRecord& record, const OnboardRecord& other,
   if (record.end && other.end && record.end->status != other.end->status)
     comparison.beyond.push_back(endedText(*record.end, *other.end));
   if (comparison.pose_sigmas && *comparison.pose_sigmas > limits.pose_sigmas)
-    comparison.beyond.push_back("the final poses are " + std::to_string(*comparison.pose_sigmas) +
+    comparison.beyond.push_back("the final poses are " + threeDigits(*comparison.pose_sigmas) +
                                 " sigmas apart");
   if (comparison.iterations.empty() || !startAlike(record, other)) return;
   const IterationComparison& first = comparison.iterations.front();
@@ -324,6 +327,8 @@ bool haveSameDigest(const OnboardRecord& record, const OnboardRecord& other) {
 }
 
 RunVerdict verdictOf(const RecordComparison& comparison, bool same_digest) {
+  if (!comparison.inputs_compared && !comparison.ends_compared && comparison.iterations.empty())
+    return RunVerdict::kUndecided;
   if (!comparison.first)
     return comparison.missing.empty() || same_digest ? RunVerdict::kEqual
                                                      : RunVerdict::kWithinLimits;
@@ -363,6 +368,8 @@ std::string comparisonText(const RecordComparison& comparison) {
     text << "equal to the bit\n";
   else if (comparison.verdict == RunVerdict::kDifferent)
     text << "different\n";
+  else if (comparison.verdict == RunVerdict::kUndecided)
+    text << "not comparable: no part of a run is in both records\n";
   else
     text << (comparison.first ? "different, but within the limits\n"
                               : "equal to the bit as far as the records reach\n");
@@ -380,7 +387,8 @@ std::string comparisonText(const RecordComparison& comparison) {
                std::to_string(iteration.found_alike), std::to_string(iteration.inliers_either),
                std::to_string(iteration.inliers_both), fixedText(iteration.translation_mm, 3),
                fixedText(iteration.rotation_mrad, 3)});
-  text << table.text();
+  if (!comparison.iterations.empty()) text << table.text();
+  if (!comparison.ends_compared) return text.str();
   text << "final poses: " << comparison.translation_mm << " mm and " << comparison.rotation_mrad
        << " mrad apart";
   if (comparison.pose_sigmas) text << ", " << *comparison.pose_sigmas << " sigmas";

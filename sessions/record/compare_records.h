@@ -62,17 +62,27 @@ enum class RunVerdict {
   kEqual,         ///< all recorded bits are equal; both records are whole or have the same digest
   kWithinLimits,  ///< other pixels or a truncated record, within the limits
   kDifferent,
+  kUndecided,  ///< no part of a run is in both records
 };
 
 struct RecordComparison {
   RunVerdict verdict = RunVerdict::kDifferent;
   std::optional<FirstDifference> first;
   std::vector<IterationComparison> iterations;  ///< those that both have
-  double translation_mm = 0.0;                  ///< between the final poses
+  bool inputs_compared = false;                 ///< both have the hashes of inputs, and options
+  bool ends_compared = false;                   ///< both have status and final pose
+  double translation_mm = 0.0;                  ///< between the final poses, if compared
   double rotation_mrad = 0.0;
   std::optional<double> pose_sigmas;  ///< empty when one has no final pose or no covariance
   std::vector<std::string> beyond;    ///< which limits are exceeded, sentences
   std::vector<std::string> missing;   ///< data that either record lacks
+
+  /// Whether inputs and ends show that the runs agree; a cut record may agree as far as it reaches,
+  /// and show nothing.
+  bool showsAgreement() const {
+    return verdict == RunVerdict::kEqual ||
+           (verdict == RunVerdict::kWithinLimits && inputs_compared && ends_compared);
+  }
 };
 
 /// Compares the data that both records have. Runs on the same inputs must be equal bit for bit: any

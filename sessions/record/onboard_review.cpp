@@ -88,6 +88,8 @@ std::string verdictText(const RecordComparison& comparison) {
       return comparison.first
                  ? "Within the limits; the pixels differ."
                  : "Agrees with the run on the ground bit for bit as far as it reaches.";
+    case RunVerdict::kUndecided:
+      return "Nothing of a run is in both: the record does not show whether they agree.";
     case RunVerdict::kDifferent:
       break;
   }

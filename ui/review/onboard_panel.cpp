@@ -23,9 +23,10 @@ QString shareText(int part, int whole) {
 }
 
 QString signOf(const sessions::RecordComparison& comparison) {
-  return comparison.verdict == RunVerdict::kEqual          ? QStringLiteral("✓ ")
-         : comparison.verdict == RunVerdict::kWithinLimits ? QStringLiteral("≈ ")
-                                                           : QStringLiteral("✗ ");
+  return comparison.verdict == RunVerdict::kEqual       ? QStringLiteral("✓ ")
+         : comparison.showsAgreement()                  ? QStringLiteral("≈ ")
+         : comparison.verdict == RunVerdict::kDifferent ? QStringLiteral("✗ ")
+                                                        : QStringLiteral("– ");
 }
 
 }  // namespace
@@ -150,9 +151,10 @@ void OnboardPanel::showTable(const sessions::RecordComparison* comparison) {
   const QString sigmas = comparison->pose_sigmas
                              ? tr("%1 sigmas").arg(numberText(*comparison->pose_sigmas, 2))
                              : QStringLiteral("–");
-  addRow(*ui_.comparison,
-         {tr("Final"), sigmas, QString(), numberText(comparison->translation_mm, 4),
-          numberText(comparison->rotation_mrad, 4)});
+  if (comparison->ends_compared)
+    addRow(*ui_.comparison,
+           {tr("Final"), sigmas, QString(), numberText(comparison->translation_mm, 4),
+            numberText(comparison->rotation_mrad, 4)});
   ui_.comparison->resizeColumnsToContents();
 }
 

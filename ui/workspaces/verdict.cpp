@@ -159,12 +159,15 @@ Verdict ofOnboard(const Situation& situation) {
             .step = situation.can_repeat ? Step::kRepeatRecord : Step::kLoadRecord};
   Verdict verdict;
   const sessions::RecordComparison& comparison = *situation.comparison;
-  const bool good = comparison.verdict != sessions::RunVerdict::kDifferent;
-  setTone(verdict, good ? VerdictTone::kGood : VerdictTone::kBad);
+  const bool different = comparison.verdict == sessions::RunVerdict::kDifferent;
+  const bool good = comparison.showsAgreement();
+  setTone(verdict, good        ? VerdictTone::kGood
+                   : different ? VerdictTone::kBad
+                               : VerdictTone::kCaution);
   verdict.head = comparison.verdict == sessions::RunVerdict::kEqual ? tr("Agrees bit for bit.")
-                 : comparison.verdict == sessions::RunVerdict::kWithinLimits
-                     ? tr("Agrees within limits.")
-                     : tr("Differs.");
+                 : good                                             ? tr("Agrees within limits.")
+                 : different                                        ? tr("Differs.")
+                                                                    : tr("Not decided.");
   if (comparison.verdict != sessions::RunVerdict::kEqual)
     verdict.sentence = fromText(sessions::verdictText(comparison));
   verdict.step = comparison.first ? Step::kFirstDifference : Step::kNextCase;

@@ -84,10 +84,23 @@ TEST(CompareRecords, ACutRecordIsComparedAsFarAsItGoes) {
   EXPECT_FALSE(found.first) << found.first->text;
   EXPECT_EQ(found.verdict, RunVerdict::kWithinLimits);
   EXPECT_FALSE(found.missing.empty());
+  EXPECT_FALSE(found.showsAgreement()) << "its end is not known";
+  EXPECT_THAT(comparisonText(found), Not(HasSubstr("final poses")));
   OnboardRecord changed = cut;
   ASSERT_FALSE(changed.options.empty());
   changed.options.front().options[0].bits ^= 1;
   EXPECT_EQ(compareRecords(reference(), changed).verdict, RunVerdict::kDifferent);
+}
+
+TEST(CompareRecords, RecordWithoutAnyPartOfARun_ShowsNothing) {
+  const OnboardRecord empty = parseRecord("c.whsr", std::span(exampleRun().run.bytes).first(64));
+  for (const RecordComparison& found :
+       {compareRecords(reference(), empty), compareRecords(empty, reference())}) {
+    EXPECT_EQ(found.verdict, RunVerdict::kUndecided);
+    EXPECT_FALSE(found.showsAgreement());
+    EXPECT_THAT(comparisonText(found), AllOf(HasSubstr("not comparable"), HasSubstr("missing: "),
+                                             Not(HasSubstr("apart")), Not(HasSubstr("equal"))));
+  }
 }
 
 }  // namespace

@@ -302,6 +302,10 @@ TEST(Verdict, Onboard_TellsWhetherTheRunsAgree) {
   EXPECT_TRUE(tells(situation, Tone::kGood, "Agrees bit for bit.", "", Step::kNextCase));
   comparison->verdict = sessions::RunVerdict::kDifferent;
   EXPECT_EQ(verdictOf(situation).tone, Tone::kBad);
+  comparison->verdict = sessions::RunVerdict::kWithinLimits;
+  EXPECT_EQ(verdictOf(situation).tone, Tone::kCaution) << "neither inputs nor ends were compared";
+  comparison->inputs_compared = comparison->ends_compared = true;
+  EXPECT_EQ(verdictOf(situation).tone, Tone::kGood);
 }
 
 /// In the program's look, whose font does not round as plain widgets' does.
