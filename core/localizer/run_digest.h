@@ -13,7 +13,9 @@
 namespace boresight {
 
 /// The serialization behind the digest of a run: big-endian, in declaration order, no times,
-/// addresses, thread or memory figures. Images, mesh, renders and samples enter with their CRC-32.
+/// addresses, thread or memory figures. Images, masks, mesh, edges, renders and samples enter with
+/// their CRC-32: it shows errors and other data (all but one in 2^32), but data can be made to have
+/// the CRC-32 of other data. Onboard records and sessions state the SHA-256 of the inputs as well.
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer);
 void digestProblem(const LocalizationProblem& problem, DigestWriter& writer);
 /// Digest of options and problem, the start of the digest of a run.
