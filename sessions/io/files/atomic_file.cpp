@@ -113,6 +113,19 @@ void syncFolder(const fs::path& folder) {
   ::close(descriptor);
 }
 
+/// Waits until the bytes of all files below a folder are stored, and their names.
+void syncBelow(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_directory()) syncFolder(entry.path());
+    if (!entry.is_regular_file()) continue;
+    const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) fail(entry.path(), errno);
+    const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    if (error != 0) fail(entry.path(), error);
+  }
+}
+
 /// The file that is created or replaced.
 struct Target {
   fs::path file;               ///< not a link
@@ -194,6 +207,7 @@ void writeFolderAtomically(const fs::path& folder,
   if (::mkdir(temporary.c_str(), 0777) != 0) fail(target, errno);
   try {
     write(temporary);
+    syncBelow(temporary);
     moveIntoPlace(temporary, target);
   } catch (...) {
     fs::remove_all(temporary, error);
