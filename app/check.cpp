@@ -45,7 +45,8 @@ struct CheckArguments {
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     addChoice(command, "--preset", preset, presetNames(),
-              "Preset of limits and requirement that replaces the session's own")
+              "Preset that replaces the session's limits, and its requirement for cases without an "
+              "own one")
         ->type_name("NAME");
     addFile(command, "--json", json, "Write the checks to this file");
     command.add_flag("--sentences", sentences, "Print the findings of passed checks, too");
@@ -125,11 +126,12 @@ int checkSession(const CheckArguments& arguments) {
 }  // namespace
 
 void addCheck(CLI::App& app, int& exit_code) {
-  addCommand(app, exit_code, "check",
-             "Checks the poses of a session, with --convergence-test also from further seeds. "
-             "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check, or the inputs have "
-             "changed since the run",
-             checkSession);
+  addCommand(
+      app, exit_code, "check",
+      "Checks the poses of a session, with --convergence-test also from further seeds. "
+      "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check, or the inputs have "
+      "changed since the run",
+      checkSession);
 }
 
 }  // namespace boresight::app

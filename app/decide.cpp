@@ -85,6 +85,8 @@ Session decided(const Session& session, const DecideArguments& arguments) {
 }
 
 int decide(const DecideArguments& arguments) {
+  if (!arguments.waivers.empty() && !arguments.validate)
+    throw CLI::ValidationError("--waive", "needs --validate: no other decision waives a check");
   sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
   (void)requireCase(document, arguments.case_id);
   try {

@@ -305,7 +305,7 @@ void describeValidatedPose(const sessions::JsonReader& root) {
       printPose(sessions::readTransform(frame.at("reference_from_station")),
                 "reference_from_station");
     }
-  line("whs verify checks it against its signature and its inputs");
+  line("whs verify checks it against its checksum and its inputs");
 }
 
 /// rig.json, with the cameras and points that it names.

@@ -21,6 +21,9 @@ constexpr CheckName kTruth{"agreement_truth", "Agreement with the truth"};
 constexpr CheckName kCamera{"agreement_camera", "Agreement with the other camera"};
 constexpr CheckName kScale{"mesh_scale", "Mesh scale estimated by the rig"};
 
+/// A truth as near as this to a pose that was given was taken from it.
+constexpr double kSamePose = 1e-6;  ///< rad, m
+
 /// How far two poses are apart: in words, and as the largest part of what is allowed.
 struct Distance {
   double of_allowed = 0.0;            ///< 1: as far as allowed
@@ -139,8 +142,18 @@ Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
   if (subject.loaded == nullptr || !subject.loaded->source.camera_from_station_truth)
     return notAskedCheck(kTruth, "The case has no truth.");
   const SessionCase& session_case = subject.loaded->source;
-  const OtherPose truth{"the truth",
-                        *session_case.camera_from_station_truth,
+  const Pose* judging = judgingTruth(session_case);
+  if (judging == nullptr)
+    return notAskedCheck(kTruth, "The truth is " + truthSourceText(session_case) +
+                                     ": agreement with it proves nothing.");
+  if (subject.source == PoseSource::kAnnotation &&
+      perturbationBetween(*judging, subject.camera_from_station).cwiseAbs().maxCoeff() <= kSamePose)
+    return notAskedCheck(kTruth,
+                         "The truth is the pose of these annotations: agreement with it "
+                         "proves nothing.");
+  const std::string source = truthSourceText(session_case);
+  const OtherPose truth{source.empty() ? "the truth" : "the truth (" + source + ")",
+                        *judging,
                         {session_case.truth_covariance.value_or(Matrix6d::Zero())}};
   return agreementCheck(kTruth, subject, truth, apartOfOneCamera(subject, truth), limits,
                         truth.covariance.known()

@@ -88,8 +88,8 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
 
 std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station) {
   const SessionCase& session_case = loaded.source;
-  if (!session_case.camera_from_station_truth) return std::nullopt;
-  const Pose& truth = *session_case.camera_from_station_truth;
+  if (judgingTruth(session_case) == nullptr) return std::nullopt;
+  const Pose& truth = *judgingTruth(session_case);
   PoseError error = poseError(truth, camera_from_station, session_case.camera_from_end_effector);
   error.projection_px = projectionError(session_case.camera, truth, camera_from_station,
                                         matchedVertices(loaded.scene.view()));

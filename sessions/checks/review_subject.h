@@ -42,7 +42,7 @@ struct ReviewSubject : JudgedPose {
   }
 };
 
-/// How far a pose is from the truth of its case; empty when the truth is not known.
+/// How far a pose is from the truth of its case; empty without a judgingTruth.
 std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station);
 
 /// The pose of a run of this case, without other poses to compare it with.

@@ -20,6 +20,7 @@
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/case_annotations.h"
+#include "sessions/session/case_run.h"
 #include "sessions/session/image_names.h"
 
 namespace boresight::sessions {
@@ -128,8 +129,27 @@ void writeBopImage(const fs::path& folder, const SessionCase& session_case, int 
            camera.height, 1);
 }
 
-/// Gives a case a truth, unless it has another one that is to stay.
-void setTruth(ImportReport& report, const std::string& case_id, const Pose& truth, bool replace) {
+/// An export rounds the numbers of a pose.
+constexpr double kSamePose = 1e-6;  ///< rad, m
+
+/// Digest of the run of the case that has this pose; "": none, as far as traces can be read.
+std::string runWithPose(const Session& session, const std::string& case_id, const Pose& pose) {
+  for (const RunRecord& run : session.runs) {
+    if (run.case_id != case_id) continue;
+    try {
+      const Pose of_run = loadRun(run).camera_from_station;
+      if (perturbationBetween(of_run, pose).cwiseAbs().maxCoeff() <= kSamePose) return run.digest;
+    } catch (const InputError&) {
+      continue;  // a trace that is lost has no pose to compare with
+    }
+  }
+  return "";
+}
+
+/// Gives a case a truth, unless it has another one that is to stay. The exported pose of a run is
+/// named as such.
+void setTruth(ImportReport& report, const std::string& case_id, const Pose& truth,
+              const fs::path& folder, bool replace) {
   SessionCase changed = *report.session.findCase(case_id);
   const auto& known = changed.camera_from_station_truth;
   if (std::count(report.case_ids.begin(), report.case_ids.end(), case_id) > 0)
@@ -138,7 +158,15 @@ void setTruth(ImportReport& report, const std::string& case_id, const Pose& trut
     throw InputError("session", "cases",
                      "case '" + case_id +
                          "' already has another truth; request its replacement (whs: --replace)");
-  if (!known || !(*known == truth)) boresight::sessions::setTruth(changed, truth);
+  TruthSource source{TruthOrigin::kImported,
+                     fs::absolute(folder).lexically_normal().filename().string(), "",
+                     runWithPose(report.session, case_id, truth)};
+  if (!source.run.empty()) {
+    source.origin = TruthOrigin::kRun;
+    report.notes.push_back("the truth of case '" + case_id +
+                           "' is the pose of its run: it does not judge runs");
+  }
+  if (!known || !(*known == truth)) boresight::sessions::setTruth(changed, truth, source);
   report.session = withCase(report.session, std::move(changed));
   report.case_ids.push_back(case_id);
 }
@@ -344,7 +372,7 @@ ImportReport importColmap(const Session& session, const fs::path& folder, bool r
     else if (!sameCamera(image.camera, exchangeCamera(*session_case).camera, true))
       report.notes.push_back(otherCamera("image '" + image.name + "'", session_case->id));
     else
-      setTruth(report, session_case->id, image.camera_from_station, replace);
+      setTruth(report, session_case->id, image.camera_from_station, folder, replace);
   }
   requireSome(report, folder);
   return report;
@@ -373,7 +401,7 @@ ImportReport importBop(const Session& session, const fs::path& folder, bool repl
     else if (!sameCamera(object.image.camera, session_case.camera, false))
       report.notes.push_back(otherCamera(image, session_case.id));
     else
-      setTruth(report, session_case.id, object.image.camera_from_station, replace);
+      setTruth(report, session_case.id, object.image.camera_from_station, folder, replace);
   }
   requireSome(report, folder);
   return report;

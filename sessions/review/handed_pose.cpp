@@ -80,11 +80,11 @@ bool near(const std::optional<double>& a, const std::optional<double>& b) {
   return std::abs(*a - *b) <= kFigureTolerance * std::max(std::abs(*a), std::abs(*b)) + kFigureRest;
 }
 
-bool sameCheck(Check stated, const Check& measured) {
-  if (!near(stated.figure, measured.figure) || !near(stated.limit, measured.limit)) return false;
-  stated.figure = measured.figure;
-  stated.limit = measured.limit;
-  return stated == measured;
+/// By data alone: titles and sentences are worded by the version that decided.
+bool sameCheck(const Check& stated, const Check& measured) {
+  return stated.id == measured.id && stated.state == measured.state &&
+         stated.unit == measured.unit && (!measured.limit || stated.side == measured.side) &&
+         near(stated.figure, measured.figure) && near(stated.limit, measured.limit);
 }
 
 std::string shortText(const Check& check) {
@@ -96,7 +96,14 @@ std::string differenceText(const Check& stated, const Check& measured) {
   const std::string before = shortText(stated);
   const std::string after = shortText(measured);
   return "'" + measured.title + "' is stated as " + before + " and measured as " + after +
-         (before == after ? ", with another text" : "");
+         (before == after ? ", with other digits" : "");
+}
+
+const Check* findStated(const HandedPose& stated, const std::string& id) {
+  const auto found = std::ranges::find(
+      stated.checks, id,
+      [](const JudgedCheck& judged) -> const std::string& { return judged.check.id; });
+  return found == stated.checks.end() ? nullptr : &found->check;
 }
 
 /// A run that had other options than the session has now names them, so that it can be repeated.
@@ -245,13 +252,25 @@ std::string checksDifference(const HandedPose& stated, const std::vector<Check>&
     return std::to_string(stated.checks.size()) + " checks are stated, but " +
            std::to_string(measured.size()) + " are measured";
   std::string text;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    const Check& check = stated.checks[i].check;
-    const bool compared = with_convergence || !isConvergenceCheck(measured[i].id);
-    if (compared ? sameCheck(check, measured[i]) : check.id == measured[i].id) continue;
-    text += (text.empty() ? "check " : "; ") + differenceText(check, measured[i]);
+  for (const Check& check : measured) {
+    const Check* found = findStated(stated, check.id);
+    const bool compared = with_convergence || !isConvergenceCheck(check.id);
+    if (found != nullptr && (!compared || sameCheck(*found, check))) continue;
+    text +=
+        (text.empty() ? "check " : "; ") +
+        (found == nullptr ? "'" + check.title + "' is not stated" : differenceText(*found, check));
   }
   return text;
+}
+
+std::vector<std::string> rewordedChecks(const HandedPose& stated,
+                                        const std::vector<Check>& measured) {
+  std::vector<std::string> titles;
+  for (const Check& check : measured)
+    if (const Check* found = findStated(stated, check.id);
+        found != nullptr && (found->title != check.title || found->sentence != check.sentence))
+      titles.push_back(check.title);
+  return titles;
 }
 
 void requireAsMeasured(const std::string& case_id, const std::string& difference) {

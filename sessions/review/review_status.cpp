@@ -2,7 +2,6 @@
 #include "sessions/review/review_status.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <span>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_writer.h"
+#include "sessions/session/case_dependencies.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/utc_time.h"
@@ -60,25 +60,6 @@ std::string byText(const Decision& decision) {
 
 std::string sha256Of(const ordered_json& json) { return sha256Text(json.dump()); }
 
-ordered_json poseJson(const std::optional<Pose>& pose) {
-  return pose ? exactPoseJson(*pose) : ordered_json();
-}
-
-ordered_json truthJson(const SessionCase& session_case) {
-  ordered_json json = poseJson(session_case.camera_from_station_truth);
-  if (session_case.truth_covariance) json["covariance"] = toJson(*session_case.truth_covariance);
-  return json;
-}
-
-ordered_json inputSigmasJson(const SessionCase& session_case) {
-  ordered_json json = ordered_json::object();
-  if (session_case.mesh_scale_sigma) json["mesh_scale"] = *session_case.mesh_scale_sigma;
-  if (session_case.calibration_sigma) json["calibration"] = toJson(*session_case.calibration_sigma);
-  if (session_case.camera_covariance)
-    json["camera_covariance"] = toJson(*session_case.camera_covariance);
-  return json;
-}
-
 ordered_json annotationsJson(const Session& session, const std::string& case_id) {
   std::vector<std::string> ids = casesOfRig(session, case_id);
   ids.insert(ids.begin(), case_id);
@@ -90,13 +71,20 @@ ordered_json annotationsJson(const Session& session, const std::string& case_id)
   return json;
 }
 
-/// The rig's cameras as they lie to each other; its name is only a name.
+/// The rig's cameras as they lie to each other, and what their runs depend on; its name is only a
+/// name.
 ordered_json rigJson(const Session& session, const SessionCase& session_case) {
   ordered_json json = ordered_json::object();
   if (!session_case.rig) return json;
   json[session_case.id] = exactPoseJson(session_case.rig->camera_from_rig);
-  for (const std::string& id : casesOfRig(session, session_case.id))
-    json[id] = exactPoseJson(session.findCase(id)->rig->camera_from_rig);
+  for (const std::string& id : casesOfRig(session, session_case.id)) {
+    const SessionCase& other = *session.findCase(id);
+    auto depends = dependencyDigests(other);
+    json[id] = {{"camera_from_rig", exactPoseJson(other.rig->camera_from_rig)},
+                {"inputs", depends["inputs"]},
+                {"image", depends["image"]},
+                {"input_sigmas", depends["input_sigmas"]}};
+  }
   return json;
 }
 
@@ -111,6 +99,10 @@ ordered_json otherRunsJson(const Session& session, const std::string& case_id) {
 const char* inputText(const std::string& name) {
   static const std::map<std::string, const char*> kTexts = {
       {"inputs", "the image, camera, mesh, seed or mask"},
+      {"image", "the image's file"},
+      {"image_label", "the image's label"},
+      {"names", "the name of case or station"},
+      {"frames", "the frames"},
       {"run", "the run"},
       {"annotations", "the annotations"},
       {"truth", "the truth"},
@@ -120,20 +112,26 @@ const char* inputText(const std::string& name) {
       {"rig", "the rig"},
       {"other_runs", "the runs of the rig's other cameras"},
       {"onboard_record", "the onboard record"},
-      {"limits", "the limits of the checks"}};
+      {"limits", "the limits of the checks"},
+      {"others", "other data of the case"}};
   const auto found = kTexts.find(name);
   return found == kTexts.end() ? name.c_str() : found->second;
 }
 
-/// A name without case and blanks.
+bool isPlural(const std::string& text) {
+  return text.starts_with("the annotations") || text.starts_with("the frames") ||
+         text.starts_with("the limits") || text.starts_with("the runs") ||
+         text.starts_with("the stated sigmas");
+}
+
+/// A name of which nothing is a letter is compared as it is.
 std::string comparableName(const std::string& name) {
-  std::string plain = lowerCase(name);
-  std::erase_if(plain, [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; });
-  return plain;
+  const std::string letters = lettersOf(name);
+  return letters.empty() ? name : letters;
 }
 
 Signature requireSigned(const Signature& who, const char* what) {
-  const Signature plain{std::string(trimmed(who.by)), std::string(trimmed(who.comment))};
+  const Signature plain{trimmedVisible(who.by), trimmedVisible(who.comment)};
   if (plain.by.empty()) throw DecisionError("give your name");
   if (plain.comment.empty())
     throw DecisionError(std::string("give a comment: why do you ") + what + "?");
@@ -152,7 +150,7 @@ std::vector<JudgedCheck> judgedChecks(const std::vector<Check>& checks,
   for (const Check& check : checks) {
     const auto found = waivers.find(check.id);
     const bool waived = check.state == CheckState::kFailed && found != waivers.end();
-    judged.push_back({check, std::string(waived ? trimmed(found->second) : "")});
+    judged.push_back({check, waived ? trimmedVisible(found->second) : ""});
   }
   return judged;
 }
@@ -243,41 +241,34 @@ std::map<std::string, std::string> inputFingerprint(const Session& session,
                                                     const std::string& run_digest) {
   const SessionCase* session_case = session.findCase(case_id);
   if (session_case == nullptr) return {};
-  std::map<std::string, std::string> fingerprint;
-  fingerprint["inputs"] = inputsDigest(*session_case);
+  std::map<std::string, std::string> fingerprint = dependencyDigests(*session_case);
   fingerprint["annotations"] = sha256Of(annotationsJson(session, case_id));
-  fingerprint["truth"] = sha256Of(truthJson(*session_case));
-  fingerprint["input_sigmas"] = sha256Of(inputSigmasJson(*session_case));
-  fingerprint["requirement"] =
-      sha256Of(session_case->requirement ? toJson(*session_case->requirement) : ordered_json());
-  fingerprint["end_effector"] = sha256Of(poseJson(session_case->camera_from_end_effector));
   fingerprint["rig"] = sha256Of(rigJson(session, *session_case));
-  fingerprint["onboard_record"] = sha256Text(
-      session_case->onboard_record ? session_case->onboard_record->sha256 : std::string());
+  fingerprint["other_runs"] = sha256Of(otherRunsJson(session, case_id));
   ReviewSettings limits = session.review;
   limits.second_person = false;  // who has to sign does not change what was measured
   fingerprint["limits"] = sha256Of(toJson(limits));
-  const ordered_json other_runs = otherRunsJson(session, case_id);
-  if (!other_runs.empty()) fingerprint["other_runs"] = sha256Of(other_runs);
   if (!run_digest.empty()) fingerprint["run"] = sha256Text(run_digest);
   return fingerprint;
 }
 
 std::string changedInputsText(const std::map<std::string, std::string>& before,
                               const std::map<std::string, std::string>& after) {
-  std::vector<std::string> changed;
-  for (const auto& [name, sha256] : before) {
-    const auto found = after.find(name);
-    if (found == after.end() || found->second != sha256) changed.emplace_back(inputText(name));
+  std::vector<std::string> changed, not_recorded;
+  for (const auto& [name, sha256] : after) {
+    const auto found = before.find(name);
+    if (found == before.end())
+      not_recorded.emplace_back(inputText(name));
+    else if (found->second != sha256)
+      changed.emplace_back(inputText(name));
   }
-  for (const auto& [name, sha256] : after)
-    if (before.count(name) == 0) changed.emplace_back(inputText(name));
+  for (const auto& [name, sha256] : before)
+    if (!after.contains(name)) changed.emplace_back(inputText(name));
+  if (!not_recorded.empty())
+    return "an earlier version made it and did not record " + listText(not_recorded) +
+           ": decide again";
   if (changed.empty()) return "";
-  const auto plural = [](const std::string& text) {
-    return text.starts_with("the annotations") || text.starts_with("the limits") ||
-           text.starts_with("the runs") || text.starts_with("the stated sigmas");
-  };
-  const bool one_thing = changed.size() == 1 && !plural(changed.front());
+  const bool one_thing = changed.size() == 1 && !isPlural(changed.front());
   return listText(changed) + (one_thing ? " has changed" : " have changed");
 }
 

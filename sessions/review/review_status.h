@@ -43,17 +43,18 @@ ReviewStatus reviewStatusOf(const Session& session, const std::string& case_id);
 /// by A no longer holds: the annotations have changed".
 std::string reviewStatusText(const ReviewStatus& status);
 
-/// SHA-256 by name: "inputs" (of runs), "run" (its digest), "annotations" (of the case and its
-/// rig), "truth", "input_sigmas", "requirement", "end_effector", "rig", "other_runs" (of the rig's
-/// other cameras, where they have one), "onboard_record", "limits". Not the options: those of a run
-/// are part of its digest. `run_digest` is empty for a pose without a run. Empty when the case does
-/// not exist.
+/// SHA-256 by name of all that a decision depends on: dependencyDigests of the case, "run" (its
+/// digest), "annotations" (of the case and its rig), "rig" (with the inputs of its other cameras),
+/// "other_runs" (theirs), "limits". Not the options: those of a run are part of its digest.
+/// `run_digest` is empty for a pose without a run; every other name is always there. Empty when the
+/// case does not exist.
 std::map<std::string, std::string> inputFingerprint(const Session& session,
                                                     const std::string& case_id,
                                                     const std::string& run_digest);
 
 /// The differences, as a clause: "the annotations and the requirement have changed"; empty without
-/// differences.
+/// differences. A name that `before` lacks was not recorded by the version that decided: its data
+/// is not covered, and the clause names it.
 std::string changedInputsText(const std::map<std::string, std::string>& before,
                               const std::map<std::string, std::string>& after);
 
@@ -69,7 +70,8 @@ struct Signature {
   std::string comment;
 };
 
-/// Whether two names denote the same person, ignoring letter case and blanks.
+/// Whether two names denote the same person: letters and digits count (lettersOf), whatever their
+/// case.
 bool samePerson(const std::string& text, const std::string& other);
 
 /// Reasons for waiving failed checks, by check id.

@@ -128,9 +128,9 @@ void addFrames(const SessionCase& session_case, ordered_json& chain) {
                  "the camera model, in " + frameText(session_case.camera_reference->frame)));
   for (const FrameTransform& join : session_case.frames)
     chain.push_back(linkJson("target_from_source", join.target_from_source,
-                             join.file.string() + ", sha256 " + join.file_sha256 + ", from " +
-                                 frameText(join.source) + " to " + frameText(join.target) + ": " +
-                                 join.comment));
+                             join.file.filename().string() + ", sha256 " + join.file_sha256 +
+                                 ", from " + frameText(join.source) + " to " +
+                                 frameText(join.target) + ": " + join.comment));
 }
 
 /// Every transform that was used, and where it came from.
@@ -232,11 +232,14 @@ ordered_json hashesJson(const SessionCase& session_case) {
 
 }  // namespace
 
-ordered_json signatureOf(const ordered_json& json) {
+ordered_json checksumOf(const ordered_json& json, const std::string& member) {
   ordered_json rest = json;
-  rest.erase("signature");
+  rest.erase(member);
+  const bool of_1_0 = member != kChecksumMember;
   return {{"algorithm", "SHA-256"},
-          {"over", "this document without its member signature, as compact JSON"},
+          {"over", of_1_0 ? "this document without its member signature, as compact JSON"
+                          : "this document without its member checksum and without white space "
+                            "between its tokens, numbers as written here"},
           {"digest", sha256Text(rest.dump())}};
 }
 
@@ -274,7 +277,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
     json["annotations"] = toJson(*annotations->second);
   json["session"] = toJson(alone, file);
   json["written"] = {{"by", std::string("Boresight ") + kVersion}, {"time", utcNowText()}};
-  json["signature"] = signatureOf(ordered_json::parse(prettyJson(json)));
+  json[kChecksumMember] = checksumOf(ordered_json::parse(prettyJson(json)));
   return json;
 }
 

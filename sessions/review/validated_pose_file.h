@@ -83,9 +83,13 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
 /// to 1e-6 of their size.
 std::string poseDifference(const HandedPose& stated, const Pose& measured);
 std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured);
+/// Compares state, figure, unit, limit and side of the checks by id, not their wording;
 /// `with_convergence` false leaves the checks of the convergence test out.
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
                              bool with_convergence);
+/// Titles of the checks whose title or sentence is another: of another version, or edited.
+std::vector<std::string> rewordedChecks(const HandedPose& stated,
+                                        const std::vector<Check>& measured);
 /// InputError unless `difference` is empty.
 void requireAsMeasured(const std::string& case_id, const std::string& difference);
 
@@ -102,14 +106,19 @@ nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPos
 HandedPose writeValidatedPose(const std::filesystem::path& file, const Session& session,
                               const std::string& case_id);
 
-/// The member `signature`: SHA-256 over the JSON without it, as compact text. `json` must be as
-/// parsed: rewriting it may change numbers (1.0 becomes 1).
-nlohmann::ordered_json signatureOf(const nlohmann::ordered_json& json);
+inline constexpr const char* kChecksumMember = "checksum";
+/// Name of the same member in files of version 1.0.
+inline constexpr const char* kFormerChecksumMember = "signature";
+/// The member `checksum`: SHA-256 over the JSON without it, as compact text. It finds damage, and
+/// proves no author: anyone can compute it. `json` must be as parsed: rewriting it may change
+/// numbers (1.0 becomes 1).
+nlohmann::ordered_json checksumOf(const nlohmann::ordered_json& json,
+                                  const std::string& member = kChecksumMember);
 
 /// Result of one check of a validated_pose.json.
 struct VerifyFinding {
   bool good = false;
-  std::string what;  ///< "signature", "image", "run", "pose", ...
+  std::string what;  ///< "checksum", "image", "run", "pose", ...
   std::string text;  ///< one sentence
 };
 
@@ -121,6 +130,8 @@ struct VerifyReport {
   /// waived. One sentence each.
   std::vector<std::string> not_proved;
 
+  bool validated = false;  ///< stated: by a person, and by a second one where that is required
+
   /// Whether all measurements are as stated; the pose may still be NOT VALIDATED.
   bool good() const;
 };
@@ -130,7 +141,7 @@ struct VerifyPlaces {
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<std::filesystem::path> signers = std::nullopt;
 };
-/// Checks a validated_pose.json: its signature, the files that it names by their hashes, whether
+/// Checks a validated_pose.json: its checksum, the files that it names by their hashes, whether
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
 /// the run is repeated (the annotations are solved again), and its digest, pose, covariance,
 /// matches and every check are compared with the file; with `convergence_again` also the

@@ -8,6 +8,7 @@
 #include "sessions/decision/decision.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/images/labels/image_label.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/review/key_signature.h"
@@ -65,7 +66,7 @@ Document readDocument(const fs::path& file) {
   root.requireFormat(kValidatedPoseFormat, kValidatedPoseVersion);
   Document document;
   document.file = file;
-  document.json = ordered_json::parse(asText(bytes));  // keeps the order, which is signed
+  document.json = ordered_json::parse(asText(bytes));  // keeps the order, as the checksum does
   document.session = document.located = readSession(root.at("session"));
   document.pose = readHandedPose(root);
   if (document.session.findCase(document.pose.case_id) == nullptr)
@@ -80,18 +81,24 @@ void note(Findings& findings, const char* what, const std::string& wrong, const 
   findings.push_back({wrong.empty(), what, wrong.empty() ? good : wrong});
 }
 
-void verifySignature(const Document& document, Findings& findings) {
-  const auto stated = document.json.find("signature");
-  const bool good = stated != document.json.end() && *stated == signatureOf(document.json);
-  note(findings, "signature",
-       good ? "" : "the document was changed since it was signed, or was never signed",
-       "the document is unchanged since it was signed");
+/// Of a file by version 1.0 the member has its former name.
+std::string checksumMember(const Document& document) {
+  return document.json.contains(kChecksumMember) ? kChecksumMember : kFormerChecksumMember;
+}
+
+void verifyChecksum(const Document& document, Findings& findings) {
+  const std::string member = checksumMember(document);
+  const auto stated = document.json.find(member);
+  const bool good = stated != document.json.end() && *stated == checksumOf(document.json, member);
+  note(findings, "checksum", good ? "" : "the document was changed since it was written",
+       "the document is unchanged since it was written");
 }
 
 /// Whether the deciders signed the file with their own keys.
 void verifyKeys(const Document& document, const fs::path& signers, Findings& findings) {
   const Decision* decision = document.session.decisionOn(document.pose.case_id);
-  if (decision == nullptr) return;
+  if (decision == nullptr)
+    return note(findings, "key", "there is no decision that a key could have signed", "");
   std::vector<std::string> names = {decision->by};
   if (decision->approval) names.push_back(decision->approval->by);
   for (const std::string& name : names) {
@@ -104,6 +111,16 @@ void verifyKeys(const Document& document, const fs::path& signers, Findings& fin
   }
 }
 
+/// Why the identifiers of a case's image are not those of its file's label, or "".
+std::string labelConcern(const SessionCase& session_case) {
+  const fs::path& image = session_case.image.source.file;
+  const bool labelled = hasImageLabel(image);
+  const auto in_file = labelled ? readImageLabel(image).identifiers : std::vector<LabelItem>();
+  return in_file == session_case.image.label
+             ? ""
+             : "case " + session_case.id + ": the stated label is not that of " + image.string();
+}
+
 /// True when all files are what they were.
 bool verifyInputs(const Document& document, Findings& findings) {
   bool all = true;
@@ -112,6 +129,12 @@ bool verifyInputs(const Document& document, Findings& findings) {
     findings.push_back({false, found.what, found.text});
     all = false;
   }
+  if (!all) return false;
+  for (const auto& session_case : document.located.cases)
+    if (const std::string concern = labelConcern(*session_case); !concern.empty()) {
+      findings.push_back({false, "image_label", concern});
+      all = false;
+    }
   if (all) findings.push_back({true, "inputs", "every named file has the stated hash"});
   return all;
 }
@@ -166,12 +189,15 @@ void verifyMembers(const Document& document, const std::optional<MeasuredPose>& 
   const ordered_json remeasured = ordered_json::parse(
       prettyJson(validatedPoseJson(document.session, document.pose, run, document.file)));
   std::vector<std::string> wrong;
+  if (!document.json.contains("written")) wrong.push_back("written");
   for (const auto& [name, value] : remeasured.items()) {
-    if (name == "written" || name == "signature") continue;
+    if (name == "written" || name == kChecksumMember) continue;
     if (!document.json.contains(name) || document.json[name] != value) wrong.push_back(name);
   }
   for (const auto& [name, value] : document.json.items())
-    if (!remeasured.contains(name) && (measured || name != "run")) wrong.push_back(name);
+    if (!remeasured.contains(name) && (measured || name != "run") &&
+        name != checksumMember(document))
+      wrong.push_back(name);
   note(findings, "contents", wrong.empty() ? "" : "inconsistent members: " + joined(wrong),
        "the members are consistent");
 }
@@ -199,10 +225,27 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
     pose.run_digest = run->digest;
 }
 
-/// A measurement cannot prove a person, a time or a reason.
-void listNotProved(const Decision* decision, bool measured, bool with_convergence, bool with_keys,
-                   std::vector<std::string>& list) {
+/// "by Boresight 1.0.0, 2026-01-31T23:59:59Z".
+std::string writtenText(const Document& document) {
+  const auto written = document.json.find("written");
+  if (written == document.json.end() || !written->is_object()) return "";
+  std::string text;
+  for (const char* member : {"by", "time"})
+    if (const auto found = written->find(member); found != written->end() && found->is_string())
+      text += (text.empty() ? "by " : ", ") + found->get<std::string>();
+  return text;
+}
+
+/// A measurement cannot prove a person, a time, a reason or a wording.
+void listNotProved(const Document& document, const std::optional<MeasuredPose>& measured,
+                   bool with_convergence, bool with_keys, std::vector<std::string>& list) {
   if (!measured) list.emplace_back("run, pose, covariance and checks: not measured");
+  list.push_back("written: " + writtenText(document));
+  const auto reworded =
+      measured ? rewordedChecks(document.pose, measured->checks) : std::vector<std::string>();
+  if (!reworded.empty())
+    list.push_back("wording: this version words other titles or sentences for " + joined(reworded));
+  const Decision* decision = reviewStatusOf(document.session, document.pose.case_id).decision;
   if (decision == nullptr) return;
   const std::string approved = decision->approval ? " and " + decision->approval->by : "";
   if (!with_keys)
@@ -231,11 +274,12 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_a
         relinked(document.session, findMissing(document.session, *places.folder / file.filename()));
   VerifyReport report;
   Findings& findings = report.findings;
-  verifySignature(document, findings);
+  verifyChecksum(document, findings);
   if (places.signers) verifyKeys(document, *places.signers, findings);
   const ReviewStatus status = reviewStatusOf(document.session, document.pose.case_id);
   takeReviewStatus(document, status);
   report.review_status = document.pose.review_status;
+  report.validated = document.pose.validated;
   const bool inputs = verifyInputs(document, findings);
   verifyDecision(status, findings);
   verifyRunStated(document, findings);
@@ -248,7 +292,7 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_a
   if (run_again && inputs) measured = measureAgain(document, convergence_seeds, findings);
   if (measured) verifyMeasured(document, *measured, with_convergence, findings);
   verifyMembers(document, measured, findings);
-  listNotProved(status.decision, measured.has_value(), with_convergence, places.signers.has_value(),
+  listNotProved(document, measured, with_convergence, places.signers.has_value(),
                 report.not_proved);
   return report;
 }

@@ -20,6 +20,7 @@ constexpr auto kSide_px = integerIn(1, kMaxImageSide_px);
 constexpr auto kStroke = choiceOf<StrokeKind>("brush", "polygon", "saturation");
 constexpr auto kOrigin =
     choiceOf<TransformSource>("unstated", "telemetry", "calibration", "label", "commanded");
+constexpr auto kTruthOrigin = choiceOf<TruthOrigin>("given", "annotated", "imported", "run");
 constexpr auto kFrame = jsonCodec<FrameName>(&readFrameName);
 constexpr auto kPartFrame = Codec{&partFrameJson, &readPartFrame};
 constexpr auto kRole = choiceOf<PartRole>(kPartRoleNames[0], kPartRoleNames[1], kPartRoleNames[2]);
@@ -88,6 +89,15 @@ ImageReadOptions readEightBit(const JsonReader& json) {
   return options;
 }
 
+/// Whether a file that is being read has the member.
+template <class Archive>
+bool hasMember(const Archive& archive, const char* name) {
+  if constexpr (Archive::kReads)
+    return archive.json().has(name);
+  else
+    return false;
+}
+
 void requireMesh(const JsonReader& json, const PartSource& part) {
   const std::optional<MeshFormat> format = knownMeshFormat(part.mesh);
   if (!format) json.failMember("file", unknownMeshFormat(part.mesh));
@@ -112,6 +122,7 @@ void fields(Archive& archive, Self& image) {
   archive.field("width", image.width, kSide_px);
   archive.field("height", image.height, kSide_px);
   archive.field("pixels_sha256", image.pixels_sha256, kSha256);
+  archive.optional("color_sha256", image.color_sha256, kSha256);
   archive.optional("label", image.label, listOf(kLabelItem));
   if constexpr (Archive::kReads)
     image.eight_bit = readEightBit(archive.json());
@@ -174,15 +185,28 @@ void fields(Archive& archive, Self& reference) {
 template <class Archive, ConstOr<FrameTransform> Self>
 void fields(Archive& archive, Self& transform) {
   std::string file = transform.file.filename().string();
+  const bool located = Archive::kReads ? hasMember(archive, "path") : transform.file.is_absolute();
   archive.field("target", transform.target, kFrame);
   archive.field("source", transform.source, kFrame);
   archive.field("target_from_source", transform.target_from_source, kExactPose);
   archive.optional("covariance", transform.covariance, kCovariance);
   archive.field("origin", transform.origin, kOrigin);
   archive.field("comment", transform.comment, kNonEmptyText);
-  archive.field("file", file, kNonEmptyText);
+  if (located)
+    archive.path("path", transform.file);
+  else
+    archive.field("file", file, kNonEmptyText);  // of version 1.0, or apart from a session
   archive.field("sha256", transform.file_sha256, kSha256);
-  if constexpr (Archive::kReads) transform.file = file;
+  if constexpr (Archive::kReads)
+    if (!located) transform.file = file;
+}
+
+template <class Archive, ConstOr<TruthSource> Self>
+void fields(Archive& archive, Self& source) {
+  archive.field("origin", source.origin, kTruthOrigin);
+  archive.optional("file", source.file, kNonEmptyText);
+  archive.optional("sha256", source.sha256, kSha256);
+  archive.optional("run", source.run, kSha256);
 }
 
 template <class Archive, ConstOr<Rig> Self>
@@ -224,6 +248,7 @@ void fields(Archive& archive, Self& self) {
   archive.object("truth_frame", self.truth_frame);
   archive.optional("truth", self.camera_from_station_truth, kExactPose);
   archive.optional("truth_covariance", self.truth_covariance, kCovariance);
+  archive.object("truth_source", self.truth_source);
   archive.optional("working", self.camera_from_station_working, kExactPose);
   archive.object("ignore", self.ignore);
   archive.optionalList("ignore_strokes", self.ignore_strokes);
@@ -273,7 +298,11 @@ ordered_json fingerprintParts(const SessionCase& session_case) {
   return json;
 }
 
-ordered_json toJson(const FrameTransform& transform) { return fieldsJson(transform); }
+ordered_json toJson(const FrameTransform& transform) {
+  FrameTransform apart = transform;
+  apart.file = transform.file.filename();
+  return fieldsJson(apart);
+}
 
 ordered_json toJson(const std::vector<LabelItem>& label) { return listOf(kLabelItem).write(label); }
 

@@ -45,6 +45,8 @@ std::shared_ptr<const LoadedCase> completed(const SessionCase& session_case, Gra
 GrayImage loadImage(const ImageInput& input) {
   GrayImage image = readKnownImage(input, input.eight_bit);
   requireKnown(input.source.file, "its 8-bit pixels", image.pixels_sha256, input.pixels_sha256);
+  if (!input.color_sha256.empty())
+    requireKnown(input.source.file, "its 8-bit colours", image.color_sha256, input.color_sha256);
   return image;
 }
 
@@ -104,7 +106,7 @@ LocalizationTrace runCase(const Session& session, const std::string& case_id, Re
 RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& file) {
   const SessionCase& session_case = knownCase(session, run.case_id);
   const std::string place = "run " + run.digest;
-  if (run.inputs_sha256 != inputsDigest(session_case))
+  if (run.inputs_sha256 != inputsDigest(session_case) || endEffectorChangedSince(run, session))
     throw InputError(file, place,
                      "the inputs of case " + run.case_id + " have changed since the run");
   if (run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together)))
@@ -136,6 +138,9 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
   const bool own_options =
       !sameOptions(trace.options, caseOptions(session, session_case, session_file));
   if (own_options || !trace.changes.empty()) run.rerun = RerunRecord{trace.plan(), from};
+  if (session_case.camera_from_end_effector &&
+      trace.options.loop.correction_point == CorrectionPoint::kEndEffector)
+    run.end_effector_in_camera_m = session_case.camera_from_end_effector->translation_m;
   if (!isSha256Text(run.digest))
     throw OutputError(session_file, "case " + case_id + ": the run ended before it had a digest (" +
                                         statusText(trace.fault) + ")");

@@ -11,8 +11,10 @@
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/images/labels/image_label.h"
 #include "sessions/io/images/labels/label_files.h"
 #include "sessions/io/meshes/mesh_container.h"
+#include "sessions/session/case_dependencies.h"
 
 namespace boresight::sessions {
 namespace {
@@ -21,18 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxInputBytes = 4096 * kMegabyte;
 constexpr std::size_t kMaxSearched = 100000;
-
-/// Calls `visit(place, file, sha256)` for each file that a case depends on.
-template <class Case, class Visit>
-void forEachFile(Case& dataset_case, Visit&& visit) {
-  visit("image", dataset_case.image.source.file, dataset_case.image.source.sha256);
-  for (std::size_t i = 0; i < dataset_case.parts.size(); ++i)
-    visit("parts[" + std::to_string(i) + "]", dataset_case.parts[i].source.mesh,
-          dataset_case.parts[i].sha256);
-  if (dataset_case.ignore) visit("ignore", dataset_case.ignore->file, dataset_case.ignore->sha256);
-  if (dataset_case.onboard_record)
-    visit("onboard_record", dataset_case.onboard_record->file, dataset_case.onboard_record->sha256);
-}
 
 /// One file that a case depends on.
 struct Dependency {
@@ -182,6 +172,40 @@ GrayImage readOrName(const ImageInput& image, const ImageReadOptions& eight_bit)
   }
 }
 
+/// The transforms of a file as it is now; of an image those that its label states.
+std::vector<FrameTransform> transformsOf(const FrameTransform& known, const fs::path& image) {
+  if (known.file != image) return readFrameTransforms(known.file);
+  std::vector<FrameTransform> transforms;
+  for (const LabelFrame& stated : readImageLabel(known.file).frames) {
+    FrameTransform& transform = transforms.emplace_back(known);
+    transform.target = stated.reference;
+    transform.source = stated.frame;
+    transform.target_from_source = stated.reference_from_frame;
+    transform.file_sha256 = inputSha256(known.file);
+  }
+  return transforms;
+}
+
+/// Takes the numbers of changed files, as `whs run --frames` would.
+void acceptFrames(SessionCase& session_case) {
+  bool accepted = false;
+  for (FrameTransform& known : session_case.frames) {
+    if (!known.file.is_absolute() || inputSha256(known.file) == known.file_sha256) continue;
+    const auto transforms = transformsOf(known, session_case.image.source.file);
+    const auto found = std::ranges::find_if(transforms, [&known](const FrameTransform& transform) {
+      return transform.target == known.target && transform.source == known.source;
+    });
+    if (found == transforms.end())
+      throw InputError(known.file, "it no longer joins " + frameText(known.target) + " and " +
+                                       frameText(known.source) + ": state the frames again");
+    known = *found;
+    accepted = true;
+  }
+  if (!accepted) return;
+  if (const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame))
+    session_case.camera_from_end_effector = chain->a_from_b;
+}
+
 }  // namespace
 
 std::string inputSha256(const fs::path& file) {
@@ -197,8 +221,11 @@ std::vector<Finding> checkInputs(const Session& session) {
     for (const Dependency& dependency : dependenciesOf(*session_case)) {
       const auto [known, added] = states.try_emplace(dependency.file);
       if (added) known->second = stateOf(dependency.file);
-      if (auto found = findingOf(session_case->id, dependency, known->second))
-        findings.push_back(std::move(*found));
+      auto found = findingOf(session_case->id, dependency, known->second);
+      const auto reported = [&found](const Finding& finding) {  // of several transforms of a file
+        return finding.case_id == found->case_id && finding.file == found->file;
+      };
+      if (found && std::ranges::none_of(findings, reported)) findings.push_back(std::move(*found));
     }
   std::error_code error;
   for (const RunRecord& run : session.runs)
@@ -253,11 +280,14 @@ Session acceptingInputs(const Session& session, const std::string& case_id) {
     const GrayImage image = readImage(session_case.image.source.file, session_case.image.eight_bit);
     session_case.image.source.sha256 = image.file_sha256;
     session_case.image.pixels_sha256 = image.pixels_sha256;
+    session_case.image.color_sha256 = image.color_sha256;
+    session_case.image.label = image.label ? image.label->identifiers : std::vector<LabelItem>();
     session_case.image.width = image.width;
     session_case.image.height = image.height;
     for (MeshInput& part : session_case.parts) part.sha256 = inputSha256(part.source.mesh);
     for (auto* input : {&session_case.ignore, &session_case.onboard_record})
       if (*input) (*input)->sha256 = inputSha256((*input)->file);
+    acceptFrames(session_case);
   });
 }
 
@@ -299,6 +329,7 @@ ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit)
   ImageInput changed = image;
   changed.eight_bit = eight_bit;
   changed.pixels_sha256 = read.pixels_sha256;
+  changed.color_sha256 = read.color_sha256;
   return changed;
 }
 

@@ -16,7 +16,7 @@ enum class FindingKind { kMissing, kChanged, kUnreadable };
 struct Finding {
   FindingKind kind = FindingKind::kMissing;
   std::string case_id;
-  std::string what;  ///< place in the case: "image", "parts[0]", "ignore", "onboard_record", "run"
+  std::string what;  ///< place in the case by forEachFile, or "run"
   std::filesystem::path file;
   std::string text;  ///< one readable sentence
 
@@ -47,8 +47,9 @@ std::vector<Relink> findMissing(const Session& session, const std::filesystem::p
 /// The same session with each missing path replaced by the found one; hashes stay.
 Session relinked(const Session& session, const std::vector<Relink>& relinks);
 
-/// The same session with the current hashes of the case's files: the operator accepts them. Runs of
-/// the case become stale. InputError when a file cannot be read.
+/// The same session with the current hashes of the case's files, and the numbers of changed
+/// transforms: the operator accepts them. Runs of the case become stale. InputError when a file
+/// cannot be read, or no longer has a transform.
 Session acceptingInputs(const Session& session, const std::string& case_id);
 
 /// Reads the image by `eight_bit`, which may differ from the session's. InputError when it cannot

@@ -160,6 +160,8 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
     add("station", size);
     add("seed", "none");
   }
+  if (const std::string source = truthSourceText(session_case); !source.empty())
+    add("truth", source);
   if (loaded.ignore)
     add("ignored", std::to_string(loaded.ignore->ignored_count) + " px, " +
                        percentText(static_cast<double>(loaded.ignore->ignored_count) /
@@ -170,7 +172,10 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
 
 /// Of a truth that was measured, against the case's own requirement or that of the first preset.
 void flagTruth(const SessionCase& session_case, InputSheet& sheet) {
-  if (!session_case.camera_from_station_truth || !session_case.truth_covariance) return;
+  if (session_case.camera_from_station_truth && judgingTruth(session_case) == nullptr)
+    sheet.flags.push_back({"truth_of_run", "the truth is " + truthSourceText(session_case) +
+                                               ": it does not judge a result"});
+  if (judgingTruth(session_case) == nullptr || !session_case.truth_covariance) return;
   const std::string excess =
       sigmaExcessText(*session_case.truth_covariance, session_case.camera_from_end_effector,
                       session_case.requirement.value_or(checkPresets().front().requirement));

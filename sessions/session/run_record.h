@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "sessions/trace/run_plan.h"
 #include "sessions/trace/trace.h"
 
@@ -42,6 +44,9 @@ struct RunRecord {
   std::string inputs_sha256;   ///< inputsDigest of the case that ran
   std::string options_sha256;  ///< optionsDigest of the options at the end of the run
   std::optional<RerunRecord> rerun = std::nullopt;  ///< of a run that changed options
+  /// Of a run whose corrections were measured there (loop.correction_point): the end effector in
+  /// the camera frame, of views in that of the first; runs by version 1.0 do not have it.
+  std::optional<Eigen::Vector3d> end_effector_in_camera_m = std::nullopt;
   /// Of a run that was solved together with other views of the case's rig.
   std::optional<TogetherRecord> together = std::nullopt;
 

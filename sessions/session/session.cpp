@@ -80,11 +80,29 @@ void setCamera(SessionCase& session_case, const CameraFile& camera) {
   session_case.camera_covariance = camera.covariance;
 }
 
-void setTruth(SessionCase& session_case, const Pose& camera_from_station,
+void setTruth(SessionCase& session_case, const Pose& camera_from_station, const TruthSource& source,
               const std::optional<Matrix6d>& covariance) {
   session_case.camera_from_station_truth = camera_from_station;
   session_case.truth_frame.reset();
   session_case.truth_covariance = covariance;
+  session_case.truth_source = source;
+}
+
+std::string truthSourceText(const SessionCase& session_case) {
+  if (!session_case.camera_from_station_truth || !session_case.truth_source) return "";
+  const TruthSource& source = *session_case.truth_source;
+  if (source.origin == TruthOrigin::kRun) return "the pose of run " + source.run.substr(0, 16);
+  constexpr const char* kNames[] = {"given", "annotated", "imported"};
+  const std::string name = kNames[static_cast<std::size_t>(source.origin)];
+  return source.file.empty() ? name : name + ", " + source.file;
+}
+
+const Pose* judgingTruth(const SessionCase& session_case) {
+  const bool of_run =
+      session_case.truth_source && session_case.truth_source->origin == TruthOrigin::kRun;
+  return session_case.camera_from_station_truth && !of_run
+             ? &*session_case.camera_from_station_truth
+             : nullptr;
 }
 
 const RunRecord* findRun(const Session& session, const std::string& case_id,
@@ -196,6 +214,7 @@ LocalizerOptions caseOptions(const Session& session, const SessionCase& session_
 std::string inputsDigest(const SessionCase& session_case) {
   SessionCase inputs;
   inputs.image.pixels_sha256 = session_case.image.pixels_sha256;
+  inputs.image.color_sha256 = session_case.image.color_sha256;
   inputs.camera = session_case.camera;
   inputs.has_seed = session_case.has_seed;
   inputs.camera_from_station_seed = session_case.camera_from_station_seed;
@@ -244,9 +263,19 @@ std::string viewsDigest(const Session& session, const std::vector<std::string>& 
   return hexText(writer.digest()).data();
 }
 
+bool endEffectorChangedSince(const RunRecord& run, const Session& session) {
+  if (!run.end_effector_in_camera_m) return false;
+  const SessionCase* first =
+      session.findCase(run.together ? run.together->views.front().case_id : run.case_id);
+  return first == nullptr || !first->camera_from_end_effector ||
+         first->camera_from_end_effector->translation_m != *run.end_effector_in_camera_m;
+}
+
 bool inputsChangedSince(const RunRecord& run, const Session& session) {
   const SessionCase* session_case = session.findCase(run.case_id);
-  if (session_case == nullptr || run.inputs_sha256 != inputsDigest(*session_case)) return true;
+  if (session_case == nullptr || run.inputs_sha256 != inputsDigest(*session_case) ||
+      endEffectorChangedSince(run, session))
+    return true;
   return run.together &&
          run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together));
 }
@@ -292,7 +321,7 @@ void StaleRuns::takeOptions(const Session& session) {
 bool StaleRuns::isStale(const RunRecord& run, const SharedValue<SessionCase>& shared_value,
                         const Session& session, const std::filesystem::path& file) {
   // Of a run together the other cases count, too.
-  if (run.together) return stalenessOf(run, session, file).stale();
+  if (run.together || run.end_effector_in_camera_m) return stalenessOf(run, session, file).stale();
   takeOptions(session);
   auto known = inputs_.find(shared_value->id);
   if (known == inputs_.end() || !known->second.of_case.sharesWith(shared_value))

@@ -43,6 +43,8 @@ struct ImageInput {
   int height = 0;
   ImageReadOptions eight_bit;  ///< how its samples become 8 bit
   std::string pixels_sha256;   ///< of the 8-bit pixels that the core sees
+  /// Of its 8-bit colours, which a search uses; empty: it has none, or version 1.0 read it.
+  std::string color_sha256 = {};
   /// Identifiers from the label of a planetary image, for provenance; else empty.
   std::vector<LabelItem> label = {};
 
@@ -55,6 +57,17 @@ struct MeshInput {
   std::string sha256;
 
   bool operator==(const MeshInput&) const = default;
+};
+
+/// Where the truth of a case comes from. A pose of a run is no evidence about runs.
+enum class TruthOrigin { kGiven, kAnnotated, kImported, kRun };
+struct TruthSource {
+  TruthOrigin origin = TruthOrigin::kGiven;
+  std::string file;    ///< name of its file or folder, or empty
+  std::string sha256;  ///< of the file; empty: not a file
+  std::string run;     ///< digest, of kRun
+
+  bool operator==(const TruthSource&) const = default;
 };
 
 /// All inputs of a run of one image, and the data by which its result is judged.
@@ -87,6 +100,7 @@ struct SessionCase {
   /// Of a truth that was measured (by annotations): left perturbation, camera frame, of the
   /// annotations alone. Empty: exact. No input of a run.
   std::optional<Matrix6d> truth_covariance;
+  std::optional<TruthSource> truth_source;          ///< empty: not known, of version 1.0
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
   std::optional<InputFile> ignore;                  ///< mask image
   MaskStrokes ignore_strokes;                       ///< edits of the mask, applied in their order
@@ -95,8 +109,8 @@ struct SessionCase {
   std::vector<std::string> tags;
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
-  /// Between named frames, without loops (frame_tree.h); `file` is a name alone. An input of a run
-  /// only where they place a part.
+  /// Between named frames, without loops (frame_tree.h); `file` is absolute, of a session by
+  /// version 1.0 a name alone. An input of a run only where they place a part.
   std::vector<FrameTransform> frames;
   /// landmarks.json with the station's named points, absolute; may not exist yet. No input of a
   /// run, and annotators add to it: the session does not store its hash.
@@ -119,8 +133,13 @@ bool sameMeshes(const SessionCase& a, const SessionCase& b);
 void setCamera(SessionCase& session_case, const CameraFile& camera);
 
 /// Sets the truth of a case and drops all data about a former truth.
-void setTruth(SessionCase& session_case, const Pose& camera_from_station,
+void setTruth(SessionCase& session_case, const Pose& camera_from_station, const TruthSource& source,
               const std::optional<Matrix6d>& covariance = std::nullopt);
+/// "given, truth.json", "annotated", "imported, scene", "the pose of run 0123456789abcdef"; "" when
+/// the case has no truth, or its source is not known.
+std::string truthSourceText(const SessionCase& session_case);
+/// The truth by which poses are judged; nullptr: there is none, or it is the pose of a run.
+const Pose* judgingTruth(const SessionCase& session_case);
 
 /// View state that belongs to the document; windows and layout do not.
 struct DocumentView {
@@ -214,6 +233,8 @@ struct Staleness {
 /// a run of several views the inputs of each count. Options do not: the pose stays the one that the
 /// run found.
 bool inputsChangedSince(const RunRecord& run, const Session& session);
+/// Whether the run used another end effector than its case (of views the first's) has now.
+bool endEffectorChangedSince(const RunRecord& run, const Session& session);
 /// The last run of a case. InputError when there is none, or its inputs have changed since.
 const RunRecord& currentRunOf(const Session& session, const std::string& case_id);
 /// inputsChangedSince(), and whether the options at the end of the run are the case's.

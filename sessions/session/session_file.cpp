@@ -40,6 +40,9 @@ constexpr auto kRunOptions =
             return options;
           }};
 
+constexpr auto kVector =
+    jsonCodec<Eigen::Vector3d>([](const JsonReader& json) { return json.vector3(); });
+
 /// InputError unless the session has this case.
 void requireCase(const Session& session, const std::string& id, const JsonReader& at) {
   if (session.findCase(id) == nullptr) at.fail("there is no case '" + id + "'");
@@ -108,6 +111,7 @@ void fields(Archive& archive, Self& run) {
   archive.field("inputs_sha256", run.inputs_sha256, kSha256);
   archive.field("options_sha256", run.options_sha256, kSha256);
   archive.object("rerun", run.rerun);
+  archive.optional("end_effector_in_camera_m", run.end_effector_in_camera_m, kVector);
   archive.object("together", run.together);
 }
 

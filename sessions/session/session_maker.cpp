@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 
 fs::path wholePath(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
 
-/// As a case keeps them: the numbers are here, so the file's name suffices.
+/// As a case keeps them.
 std::vector<FrameTransform> keptFrames(std::vector<FrameTransform> transforms) {
-  for (FrameTransform& transform : transforms) transform.file = transform.file.filename();
+  for (FrameTransform& transform : transforms) transform.file = wholePath(transform.file);
   return transforms;
 }
 
@@ -83,6 +83,14 @@ void requireScene(const SessionCase& session_case, const fs::path& place) {
   for (const PartSource& part : parts) (void)placedPart(part, frames);
 }
 
+TruthSource sourceOfTruth(const fs::path& file, const PoseFile& truth) {
+  TruthSource source{TruthOrigin::kGiven, file.filename().string(), inputSha256(file), ""};
+  if (!truth.run_digest) return source;
+  source.origin = truth.run_digest->empty() ? TruthOrigin::kAnnotated : TruthOrigin::kRun;
+  source.run = *truth.run_digest;
+  return source;
+}
+
 InputFile maskInput(const fs::path& file, const ImageInput& image) {
   return {wholePath(file), readIgnoreMask(file, image.width, image.height).file_sha256};
 }
@@ -109,6 +117,9 @@ SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const Image
   session_case.camera_from_station_truth = dataset_case.truth_camera_from_station;
   session_case.truth_frame = dataset_case.truth_frame;
   session_case.truth_covariance = dataset_case.truth_covariance;
+  if (dataset_case.truth_camera_from_station)
+    session_case.truth_source =
+        TruthSource{TruthOrigin::kGiven, dataset.file.filename().string(), dataset.sha256, ""};
   if (dataset_case.ignore)
     session_case.ignore = maskInput(*dataset_case.ignore, session_case.image);
   session_case.rig = dataset_case.rig;
@@ -147,7 +158,8 @@ ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
                    image.width,
                    image.height,
                    eight_bit,
-                   image.pixels_sha256};
+                   image.pixels_sha256,
+                   image.color_sha256};
   if (image.label) input.label = image.label->identifiers;
   return input;
 }
@@ -203,9 +215,9 @@ MadeCase makeCase(const CaseFiles& files) {
   if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);
   if (files.truth) {
     const PoseFile truth = readPose(*files.truth, frames);
-    session_case.camera_from_station_truth = truth.camera_from_station;
+    setTruth(session_case, truth.camera_from_station, sourceOfTruth(*files.truth, truth),
+             truth.covariance);
     session_case.truth_frame = truth.station_frame;
-    session_case.truth_covariance = truth.covariance;
   }
   if (files.ignore) session_case.ignore = maskInput(*files.ignore, session_case.image);
   return result;

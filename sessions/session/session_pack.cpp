@@ -25,6 +25,7 @@
 #include "sessions/io/images/labels/label_files.h"
 #include "sessions/io/meshes/mesh_file.h"
 #include "sessions/record/onboard_record.h"
+#include "sessions/session/case_dependencies.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 
@@ -165,12 +166,8 @@ class Packer {
         top_(runsFolderOf(name_).stem().string()) {
     folders_.add(fs::absolute(session_file).parent_path());
     for (const auto& session_case : session.cases) {
-      folders_.add(session_case->image.source.file.parent_path());
-      for (const MeshInput& part : session_case->parts)
-        folders_.add(part.source.mesh.parent_path());
-      if (session_case->ignore) folders_.add(session_case->ignore->file.parent_path());
-      if (session_case->onboard_record)
-        folders_.add(session_case->onboard_record->file.parent_path());
+      forEachFile(*session_case, [this](const std::string&, const fs::path& file,
+                                        const std::string&) { folders_.add(file.parent_path()); });
     }
   }
 
@@ -200,6 +197,7 @@ class Packer {
   }
 
   void packCase(SessionCase& session_case, const std::string& member) {
+    const fs::path image = session_case.image.source.file;
     inMember(member + ".image", [&] { packImage(session_case.image); });
     for (std::size_t i = 0; i < session_case.parts.size(); ++i)
       inMember(member + ".parts[" + std::to_string(i) + "]",
@@ -216,6 +214,9 @@ class Packer {
           (void)parseRecord(file, readFileBytes(file, kMaxPackedBytes));
         });
       });
+    for (std::size_t i = 0; i < session_case.frames.size(); ++i)
+      inMember(member + ".frames[" + std::to_string(i) + "]",
+               [&] { packFrames(session_case.frames[i], image, session_case.image.source.file); });
     if (session_case.landmarks)
       inMember(member + ".landmarks", [&] { packLandmarks(session_case); });
   }
@@ -271,6 +272,18 @@ class Packer {
       add(name, file, input.sha256);
     }
     input.file = place(name);
+  }
+
+  /// Transforms of the image's label stay with it, at `packed_image`.
+  void packFrames(FrameTransform& transform, const fs::path& image, const fs::path& packed_image) {
+    if (!transform.file.is_absolute()) return;
+    if (transform.file == image) {
+      transform.file = packed_image;
+      return;
+    }
+    InputFile input{transform.file, transform.file_sha256};
+    packInput(input, [](const fs::path& file) { (void)readFrameTransforms(file); });
+    transform.file = input.file;
   }
 
   /// In their present state: the session does not store their hash.

@@ -15,7 +15,7 @@ bool joinsTheSame(const FrameTransform& a, const FrameTransform& b) {
 }
 
 void addTransform(std::vector<FrameTransform>& frames, FrameTransform transform) {
-  transform.file = transform.file.filename();  // the numbers are here, so the name suffices
+  transform.file = std::filesystem::absolute(transform.file).lexically_normal();
   std::erase_if(frames, [&transform](const FrameTransform& former) {
     return joinsTheSame(former, transform);
   });

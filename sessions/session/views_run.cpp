@@ -118,6 +118,7 @@ std::vector<RunRecord> storeViews(const Session& session,
     together.inputs_sha256 = viewsDigest(session, casesOf(together));
     const std::string& id = view.views[view.own_view].case_id;
     records.push_back(storeRun(session, id, view, session_file));
+    records.back().end_effector_in_camera_m = records.front().end_effector_in_camera_m;
     records.back().together = std::move(together);
   }
   return records;

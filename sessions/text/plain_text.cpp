@@ -61,7 +61,59 @@ class PlainLocale {
   locale_t before_;
 };
 
+/// Blanks, and characters without a glyph of their own (Unicode: White_Space,
+/// Default_Ignorable_Code_Point, control characters, the blank Braille pattern).
+bool isInvisible(const Character& character) {
+  struct Range {
+    std::uint32_t first, last;
+  };
+  constexpr Range kRanges[] = {
+      {0x00, 0x20},       {0x7f, 0xa0},      {0xad, 0xad},     {0x34f, 0x34f},   {0x61c, 0x61c},
+      {0x115f, 0x1160},   {0x1680, 0x1680},  {0x17b4, 0x17b5}, {0x180b, 0x180f}, {0x2000, 0x200f},
+      {0x2028, 0x202f},   {0x205f, 0x206f},  {0x2800, 0x2800}, {0x3000, 0x3000}, {0x3164, 0x3164},
+      {0xfe00, 0xfe0f},   {0xfeff, 0xfeff},  {0xffa0, 0xffa0}, {0xfff0, 0xfffb}, {0x1bca0, 0x1bca3},
+      {0x1d173, 0x1d17a}, {0xe0000, 0xe0fff}};
+  return character.valid && std::ranges::any_of(kRanges, [&character](const Range& range) {
+           return range.first <= character.code && character.code <= range.last;
+         });
+}
+
+/// Of ASCII letters and digits, beyond it all that is visible but General Punctuation.
+bool isLetter(const Character& character) {
+  const std::uint32_t code = character.code;
+  if (!character.valid) return true;
+  if (code < 0x80)
+    return (code >= '0' && code <= '9') || (code >= 'A' && code <= 'Z') ||
+           (code >= 'a' && code <= 'z');
+  return !isInvisible(character) && !(code >= 0x2010 && code <= 0x205e);
+}
+
 }  // namespace
+
+std::string trimmedVisible(std::string_view text) {
+  std::size_t begin = text.size(), end = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const Character character = firstCharacter(text.substr(at));
+    const std::size_t next = at + (character.valid ? character.bytes : 1);
+    if (!isInvisible(character)) {
+      begin = std::min(begin, at);
+      end = next;
+    }
+    at = next;
+  }
+  return begin < end ? std::string(text.substr(begin, end - begin)) : std::string();
+}
+
+std::string lettersOf(std::string_view text) {
+  std::string letters;
+  while (!text.empty()) {
+    const Character first = firstCharacter(text);
+    const std::size_t bytes = first.valid ? first.bytes : 1;
+    if (isLetter(first)) letters += text.substr(0, bytes);
+    text.remove_prefix(bytes);
+  }
+  return lowerCase(letters);
+}
 
 std::string plainText(std::string_view text) {
   std::string plain;

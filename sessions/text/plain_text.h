@@ -25,6 +25,15 @@ std::string oneLine(std::string_view text);
 /// The text without leading and trailing blanks, tabs and line ends.
 std::string_view trimmed(std::string_view text);
 
+/// The text without blanks and invisible characters of Unicode at both ends: a text of these alone
+/// is empty. Bytes that are not UTF-8 count as visible.
+std::string trimmedVisible(std::string_view text);
+
+/// The letters and digits of a text, for comparing names: without blanks, invisible characters and
+/// punctuation of ASCII and of Unicode's General Punctuation; A to Z as a to z. Letters of two
+/// scripts that look alike stay different.
+std::string lettersOf(std::string_view text);
+
 /// Several texts as one, separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
 

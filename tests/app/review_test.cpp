@@ -55,7 +55,7 @@ TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
   text.replace(text.find("\"comment\": \"right\""), 18, "\"comment\": \"wrong\"");
   folder_.write("tampered.json", text);
   EXPECT_THAT(runWhs({"verify", folder_ / "tampered.json", "--no-run"}, 6).out,
-              HasSubstr("WRONG       signature"));
+              HasSubstr("WRONG       checksum"));
 }
 
 /// The other differences that are found: ValidatedPose.ASessionEditedByHandIsNotSigned and others.
@@ -72,11 +72,25 @@ TEST_F(ReviewCommands, PoseThatDiffersFromItsMeasurement_IsNeitherSignedNorRepor
   }
 }
 
+TEST_F(ReviewCommands, RunOfFormerInputs_IsNotChecked) {
+  auto session = jsonOf(session_);
+  for (auto& session_case : session["cases"])
+    if (session_case["id"] == kOsCase)
+      session_case["uncertainty"]["translation_m"] = {0.05, 0.05, 0.05};
+  folder_.write("s.boresight.json", session.dump());
+  const std::string json = folder_ / "checks.json";
+  const ProgramRun run =
+      runWhs({"check", session_, "--case", kOsCase, "--convergence-test", "0", "--json", json}, 3);
+  EXPECT_THAT(run.err, HasSubstr("the inputs have changed since the last run: run it again"));
+  EXPECT_THAT(folder_.read("checks.json"), HasSubstr("\"passed\": false"));
+}
+
 TEST_F(ReviewCommands, InvalidDecision_IsRefusedAndChangesNothing) {
   const std::string before = folder_.read("s.boresight.json");
   EXPECT_THAT(refusal(deciding({"--approve"}), 4), HasSubstr("no validation"));
   runWhs(deciding({"--validate", "--reject"}), 2);
   runWhs(deciding({"--validate", "--waive", "x"}), 2);
+  runWhs(deciding({"--reject", "--waive", "inlier_count=so"}), 2);
   EXPECT_EQ(folder_.read("s.boresight.json"), before);
 }
 
@@ -85,7 +99,8 @@ TEST_F(ReviewCommands, UnvalidatedPose_IsReportedAsSuch) {
   EXPECT_THAT(runWhs({"report", session_, "--case", kOsCase, "--out", pdf}, 0).out,
               HasSubstr("NOT VALIDATED: converged"));
   EXPECT_EQ(folder_.read("report.pdf").substr(0, 5), "%PDF-");
-  runWhs({"verify", exportPose()}, 0);
+  EXPECT_THAT(runWhs({"verify", exportPose()}, 6).out, HasSubstr("the pose is NOT VALIDATED"));
+  runWhs({"verify", exportPose(), "--allow-not-validated"}, 0);
   EXPECT_THAT(folder_.read("pose.json"), HasSubstr("\"state\": \"NOT VALIDATED\""));
   runWhs({"report", session_, "--out", pdf}, 2);  // of which case?
   refusal({"report", session_, "--case", "bc-000028", "--out", pdf});

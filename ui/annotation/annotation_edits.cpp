@@ -265,7 +265,8 @@ void AnnotationController::useAsTruth() {
       sessions::sigmaExcessText(answer_.covariance.value_or(Matrix6d::Zero()),
                                 annotations.camera_from_end_effector, annotations.requirement);
   sessions::SessionCase changed = *session_case;
-  sessions::setTruth(changed, *solvedPose(), answer_.covariance);
+  sessions::setTruth(changed, *solvedPose(), {sessions::TruthOrigin::kAnnotated, "", "", ""},
+                     answer_.covariance);
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Use the annotated pose of %1 as its truth").arg(fromText(case_id_)));
   QString text =

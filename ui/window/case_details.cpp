@@ -126,7 +126,7 @@ void CaseDetails::readNext() {
   for (; next_ < 2 * cases.size(); ++next_) {
     const sessions::SessionCase& session_case = *cases[next_ - cases.size()];
     const sessions::RunRecord* run = session_.lastRunOf(session_case.id);
-    if (run && session_case.camera_from_station_truth &&
+    if (run && sessions::judgingTruth(session_case) &&
         read(poses_, run->digest, [run = *run] { return resultOf(run); }))
       return;
   }
@@ -144,12 +144,11 @@ void CaseDetails::tellSoon() {
 
 void CaseDetails::fillErrors(const sessions::SessionCase& session_case, CaseRow& row) const {
   const sessions::RunRecord* run = session_.lastRunOf(session_case.id);
-  if (!run || !session_case.camera_from_station_truth) return;
+  if (!run || !sessions::judgingTruth(session_case)) return;
   const auto found = poses_.find(run->digest);
   if (found == poses_.end() || !found->second) return;
-  const sessions::PoseError error =
-      sessions::poseError(*session_case.camera_from_station_truth, *found->second,
-                          session_case.camera_from_end_effector);
+  const sessions::PoseError error = sessions::poseError(
+      *sessions::judgingTruth(session_case), *found->second, session_case.camera_from_end_effector);
   row.normal_mm = std::abs(error.normal_mm);
   row.lateral_mm = error.lateral_mm;
   row.rotation_deg = 1e-3 * error.rotation_mrad / kDegree_rad;

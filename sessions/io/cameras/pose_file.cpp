@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_writer.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -135,7 +136,10 @@ PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
   const JsonReader root = document.root();
   if (root.hasFormat(kValidatedPoseFormat)) {
     root.requireFormat(kValidatedPoseFormat, 1);
-    return readPose(root.at("pose"), frames);
+    PoseFile pose = readPose(root.at("pose"), frames);
+    const auto run = root.find("run");
+    pose.run_digest = run ? readSha256(run->at("digest")) : "";
+    return pose;
   }
   return document.read(kPoseFormat, kPoseVersion,
                        [&frames](const JsonReader& json) { return readPose(json, frames); });

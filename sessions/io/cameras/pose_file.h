@@ -39,6 +39,8 @@ struct PoseFile {
   std::optional<Matrix6d> covariance = std::nullopt;
   /// Of a pose that was given as `reference_from_station`; the name may be empty.
   std::optional<FrameName> station_frame = std::nullopt;
+  /// Of the pose of a validated_pose.json: the digest of its run, or "" for one of annotations.
+  std::optional<std::string> run_digest = std::nullopt;
 };
 
 /// Data to convert a pose in a named frame to the camera frame.

@@ -158,6 +158,7 @@ void setPixels(const cv::Mat& image, const ImageReadOptions& options, GrayImage&
   gray.color = colorOf(image, table);
   gray.rule += ruleText(gray, options);
   gray.pixels_sha256 = sha256Text(gray.pixels);
+  if (!gray.color.empty()) gray.color_sha256 = sha256Text(gray.color);
 }
 
 /// Depth of the label, of its file where it states none, or, where a sample is beyond the label's,
@@ -263,7 +264,9 @@ GrayImage grayImageOf(const std::filesystem::path& file, const cv::Mat& pixels) 
   bool same = true;
   for (std::size_t i = 0; i < color.size() && same; i += ColorView::kChannels)
     same = color[i] == color[i + 1] && color[i] == color[i + 2];
-  if (same) gray.color.clear();
+  if (!same) return gray;
+  gray.color.clear();
+  gray.color_sha256.clear();
   return gray;
 }
 

@@ -71,6 +71,7 @@ struct GrayImage {
   std::vector<std::string> notes;           ///< for the operator, on its file and samples
   std::string file_sha256;    ///< of a label and the file of its pixels: of both together
   std::string pixels_sha256;  ///< of `pixels`
+  std::string color_sha256;   ///< of `color`; empty: the file has no colour
 
   ImageView view() const { return {pixels.data(), width, height, width}; }
   /// Without data where there is no colour.

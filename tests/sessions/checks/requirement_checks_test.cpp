@@ -51,11 +51,28 @@ TEST_F(AgreementChecks, ExactTruth_IsComparedWithTheRequirement) {
   EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kFailed);
 }
 
+TEST_F(AgreementChecks, TruthThatIsThePoseOfARun_IsNoEvidence) {
+  setTruth(one_, subject_.camera_from_station,
+           {TruthOrigin::kRun, "pose.json", "", std::string(64, 'a')});
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kNotApplicable);
+  EXPECT_THAT(checkOf("agreement_truth").sentence,
+              HasSubstr("the pose of run aaaaaaaaaaaaaaaa: agreement with it proves nothing"));
+}
+
+TEST_F(AgreementChecks, AnnotatedPoseAgainstItself_IsNoEvidence) {
+  setTruth(one_, subject_.camera_from_station, {TruthOrigin::kAnnotated, "", "", ""});
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kPassed) << "of a run it is";
+  subject_.source = PoseSource::kAnnotation;
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kNotApplicable);
+  setTruth(one_, movedBy(0.1, 0.0), {TruthOrigin::kAnnotated, "", "", ""});
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kPassed) << "of other annotations";
+}
+
 TEST_F(AgreementChecks, CoarseTruthFromAnnotations_IsComparedWithinItsSigmasAndReportedAsWeak) {
-  setTruth(one_, movedBy(0.0, 8.0));
+  setTruth(one_, movedBy(0.0, 8.0), {});
   EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
   // 3 sigma of 10 mm along the view axis, of the truth and of the pose together.
-  setTruth(one_, movedBy(0.0, 8.0), Matrix6d(9.9e-5 * Matrix6d::Identity()));
+  setTruth(one_, movedBy(0.0, 8.0), {}, Matrix6d(9.9e-5 * Matrix6d::Identity()));
   subject_.covariance.picture = 1e-6 * Matrix6d::Identity();
   const Check check = checkOf("agreement_truth");
   EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
@@ -87,9 +104,10 @@ TEST_F(AgreementChecks, SeveralCameras_AreIndependentAndTheLargestDistanceCounts
 }
 
 TEST_F(AgreementChecks, Sentence_StatesWhereThePosesDiffer) {
-  setTruth(one_, movedBy(0.1, -0.3));
+  setTruth(one_, movedBy(0.1, -0.3), {TruthOrigin::kAnnotated, "", "", ""});
   const auto sentence = [&] { return checkOf("agreement_truth").sentence; };
   EXPECT_THAT(sentence(), HasSubstr("across the view axis at the camera"));
+  EXPECT_THAT(sentence(), HasSubstr("The pose and the truth (annotated) differ"));
   one_.camera_from_end_effector = Pose();
   EXPECT_THAT(sentence(), HasSubstr("at the end effector"));
 }
@@ -162,10 +180,22 @@ TEST(OnboardCheck, States_FollowTheComparison) {
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
   subject.onboard->first.emplace().text = "The pixels differ.";
   subject.onboard->verdict = RunVerdict::kWithinLimits;
+  subject.onboard->missing = {"first: the end is cut off"};
+  for (bool RecordComparison::*part :
+       {&RecordComparison::inputs_compared, &RecordComparison::ends_compared}) {
+    EXPECT_EQ(onboardCheck(subject).state, CheckState::kNotApplicable) << "it shows nothing";
+    EXPECT_THAT(onboardCheck(subject).sentence, HasSubstr("First: the end is cut off."));
+    subject.onboard.value().*part = true;
+  }
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
   EXPECT_THAT(onboardCheck(subject).sentence, HasSubstr("The pixels differ."));
   subject.onboard->verdict = RunVerdict::kDifferent;
+  subject.onboard->beyond = {"the final poses are 7 sigmas apart", "the images are of two sizes"};
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kFailed);
+  EXPECT_THAT(onboardCheck(subject).sentence,
+              HasSubstr("run. The pixels differ. The final poses are 7 sigmas apart. The images"));
+  subject.onboard->verdict = RunVerdict::kUndecided;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kNotApplicable);
 }
 
 /// Independent sigmas: 1 mrad about every axis, 0.1, 0.1 and 0.2 mm along them.

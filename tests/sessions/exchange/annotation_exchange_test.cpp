@@ -12,6 +12,7 @@
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/case_annotations.h"
+#include "sessions/session/case_run.h"
 #include "sessions/session/image_names.h"
 #include "tests/sessions/review/judged_case.h"
 #include "tests/sessions/session/random_session.h"
@@ -51,7 +52,7 @@ TEST_F(AnnotationExchange, Colmap_ExportAndImport_IsEqualToTheBit) {
   EXPECT_EQ(*read.session.findCase(bc_)->camera_from_station_truth, solved(bc_));
   // Nothing else has changed.
   SessionCase before = *session_.findCase(bc_);
-  before.camera_from_station_truth = solved(bc_);
+  setTruth(before, solved(bc_), {TruthOrigin::kImported, "model", "", ""});
   EXPECT_TRUE(read.session == withCase(session_, before));
 }
 
@@ -174,6 +175,22 @@ TEST(ImageNames, AreRelativeToWhatHoldsAllImages) {
   for (const char* end : {"b/7.png", "./7.png"}) EXPECT_TRUE(isEndOf(end, "/data/b/7.png")) << end;
   EXPECT_FALSE(isEndOf("7.png", "/data/b/17.png"));
   for (const char* end : {"a/7.png", ""}) EXPECT_FALSE(isEndOf(end, "/data/b/7.png")) << end;
+}
+
+TEST_F(AnnotationExchange, TruthThatIsTheExportedPoseOfARun_IsNamedAsSuch) {
+  session_.options = {{"search.enabled", false}};
+  const LocalizationTrace trace = runCase(session_, os_);
+  ASSERT_TRUE(trace.converged());
+  session_ = withRun(session_, storeRun(session_, os_, trace, folder_ / "s.boresight.json"));
+  exportBop(session_, folder_ / "scene", posesToHandOver(session_, {os_}));
+  const ImportReport report = importBop(session_, folder_ / "scene", true);
+  EXPECT_THAT(report.notes, Contains(HasSubstr("is the pose of its run")));
+  const SessionCase& imported = *report.session.findCase(os_);
+  ASSERT_TRUE(imported.truth_source);
+  EXPECT_EQ(imported.truth_source->origin, TruthOrigin::kRun);
+  EXPECT_EQ(imported.truth_source->run, trace.digest);
+  EXPECT_EQ(judgingTruth(imported), nullptr);
+  EXPECT_FALSE(truthError(*loadCase(imported), trace.camera_from_station));
 }
 
 /// Both stations are annotated, the annotations of the OS one validated.

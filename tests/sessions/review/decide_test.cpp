@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <functional>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "sessions/review/review_status.h"
 #include "tests/sessions/review/judged_case.h"
@@ -102,34 +103,61 @@ TEST_F(Decide, OnlyTheLastConvergedRunOfTheseInputsCanBeValidated) {
 
 TEST_F(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
   const Session before = judged.validatedBy("Ada");
-  const std::map<std::string, std::function<void(Session&, sessions::SessionCase&)>> edits = {
-      {"the image, camera, mesh, seed or mask has",
-       [](Session&, auto& item) { item.camera_from_station_seed.translation_m.x() += 1e-12; }},
-      {"the truth has", [](Session&, auto& item) { item.camera_from_station_truth = Pose(); }},
-      {"the stated sigmas of mesh and camera have",
-       [](Session&, auto& item) { item.mesh_scale_sigma = 1e-3; }},
-      {"the stated sigmas of mesh and camera",
-       [](Session&, auto& item) {
-         item.camera_covariance.emplace().of_vectors.setIdentity(12, 12);
-       }},
-      {"the requirement has",
-       [](Session&, auto& item) { item.requirement.emplace().normal_mm = 1.0; }},
-      {"the end effector has",
-       [](Session&, auto& item) { item.camera_from_end_effector = Pose(); }},
-      {"the rig has", [](Session&, auto& item) { item.rig.emplace().id = "r"; }},
-      {"the onboard record has",
-       [&](Session&, auto& item) { item.onboard_record = randomInput(random, ".whsr"); }},
-      {"the limits of the checks have",
-       [](Session& session, auto&) { session.review.preset = "photographs"; }},
-      {"there is a later run",
-       [&](Session& session, auto&) {
-         session.runs.push_back(session.runs.back());
-         session.runs.back().digest = randomSha256(random);
-       }},
-      {"its run is missing", [](Session& session, auto&) { session.runs.clear(); }},
-      {"the annotations have", [&](Session& session, auto& item) {
-         session = withAnnotations(session, item.id, someAnnotations(random));
-       }}};
+  const std::vector<std::pair<std::string, std::function<void(Session&, sessions::SessionCase&)>>>
+      edits = {
+          {"the image, camera, mesh, seed or mask has",
+           [](Session&, auto& item) { item.camera_from_station_seed.translation_m.x() += 1e-12; }},
+          {"the truth has", [](Session&, auto& item) { item.camera_from_station_truth = Pose(); }},
+          {"the stated sigmas of mesh and camera have",
+           [](Session&, auto& item) { item.mesh_scale_sigma = 1e-3; }},
+          {"the stated sigmas of mesh and camera",
+           [](Session&, auto& item) {
+             item.camera_covariance.emplace().of_vectors.setIdentity(12, 12);
+           }},
+          {"the requirement has",
+           [](Session&, auto& item) { item.requirement.emplace().normal_mm = 1.0; }},
+          {"the end effector has",
+           [](Session&, auto& item) { item.camera_from_end_effector = Pose(); }},
+          {"the rig has", [](Session&, auto& item) { item.rig.emplace().id = "r"; }},
+          {"the onboard record has",
+           [&](Session&, auto& item) { item.onboard_record = randomInput(random, ".whsr"); }},
+          {"the limits of the checks have",
+           [](Session& session, auto&) { session.review.preset = "photographs"; }},
+          {"the image's file has",
+           [&](Session&, auto& item) { item.image.source.sha256 = randomSha256(random); }},
+          {"the image, camera, mesh, seed or mask",
+           [&](Session&, auto& item) { item.image.color_sha256 = randomSha256(random); }},
+          {"the image's label has",
+           [](Session&, auto& item) {
+             item.image.label.push_back({"PRODUCT_ID", "typed in"});
+           }},
+          {"the name of case or station has", [](Session&, auto& item) { item.station += "7"; }},
+          {"the frames have",
+           [&](Session&, auto& item) {
+             item.station_frame = sessions::FrameName{"SITE", {1, 2, 3, 4}};
+           }},
+          {"the frames have",
+           [&](Session&, auto& item) {
+             item.camera_reference.emplace().camera_from_reference = randomPose(random);
+           }},
+          {"the frames have",
+           [&](Session&, auto& item) {
+             item.frames.push_back({sessions::kCameraFrame, sessions::kEndEffectorFrame,
+                                    randomPose(random), Matrix6d(Matrix6d::Identity()),
+                                    sessions::TransformSource::kTelemetry, "sol 12", "/arm.json",
+                                    randomSha256(random)});
+           }},
+          {"the truth has",
+           [](Session&, auto& item) { item.truth_source.emplace().file = "another"; }},
+          {"there is a later run",
+           [&](Session& session, auto&) {
+             session.runs.push_back(session.runs.back());
+             session.runs.back().digest = randomSha256(random);
+           }},
+          {"its run is missing", [](Session& session, auto&) { session.runs.clear(); }},
+          {"the annotations have", [&](Session& session, auto& item) {
+             session = withAnnotations(session, item.id, someAnnotations(random));
+           }}};
   for (const auto& [text, edit] : edits) {
     Session after = before;
     sessions::SessionCase session_case = *before.findCase("a");
@@ -141,6 +169,62 @@ TEST_F(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
     EXPECT_THAT(status.dropped, HasSubstr(text));
     EXPECT_THAT(reviewStatusText(status), StartsWith("NOT VALIDATED: "));
   }
+}
+
+/// Of frames each number counts, and their file's bytes, but not its folder.
+TEST_F(Decide, FramesOfADecision_AreCoveredByNumbersCovarianceAndHash) {
+  sessions::FrameTransform arm{sessions::FrameName{"ARM_BASE", {}},
+                               sessions::kEndEffectorFrame,
+                               randomPose(random),
+                               Matrix6d(Matrix6d::Identity()),
+                               sessions::TransformSource::kTelemetry,
+                               "sol 12",
+                               "/arm.json",
+                               randomSha256(random)};
+  judged.session = withChanged(judged.session, "a", [&](auto& item) { item.frames = {arm}; });
+  const Session before = judged.validatedBy("Ada");
+  const auto dropped = [&](const std::function<void(sessions::FrameTransform&)>& edit) {
+    return reviewStatusOf(withChanged(before, "a", [&](auto& item) { edit(item.frames.front()); }),
+                          "a")
+        .dropped;
+  };
+  const std::string changed = "the frames have changed";
+  EXPECT_EQ(dropped([](auto& frame) { frame.file = "/moved/arm.json"; }), "");
+  EXPECT_EQ(dropped([](auto& frame) { frame.target_from_source.translation_m.x() += 1e-9; }),
+            changed);
+  EXPECT_EQ(dropped([](auto& frame) { (*frame.covariance)(3, 3) *= 0.5; }), changed);
+  EXPECT_EQ(dropped([](auto& frame) { frame.origin = sessions::TransformSource::kCommanded; }),
+            changed);
+  EXPECT_EQ(dropped([&](auto& frame) { frame.file_sha256 = randomSha256(random); }), changed);
+}
+
+TEST_F(Decide, DecisionOfAnEarlierVersion_EndsAndNamesWhatItDoesNotCover) {
+  Session before = judged.validatedBy("Ada");
+  for (const char* name : {"frames", "names", "image_label"})
+    ASSERT_EQ(before.decisions.back().input_fingerprint.erase(name), 1u) << name;
+  const sessions::ReviewStatus status = reviewStatusOf(before, "a");
+  EXPECT_FALSE(status.holds());
+  EXPECT_EQ(status.dropped,
+            "an earlier version made it and did not record the frames, the image's label and the "
+            "name of case or station: decide again");
+}
+
+TEST_F(Decide, InvisibleText_IsNoNameNoCommentAndNoReason) {
+  const auto validate = [&](const char* by, const char* comment, const char* reason) {
+    return refusal([&] {
+      validated(judged.session, judged.subject, judged.checks, {{"coverage", reason}},
+                {by, comment});
+    });
+  };
+  judged.checks[1].state = CheckState::kFailed;
+  EXPECT_THAT(validate("\xE2\x80\x8B", "right", "so"), HasSubstr("give your name"));
+  EXPECT_THAT(validate("Ada", "\xC2\xA0\xE2\x81\xA0", "so"), HasSubstr("give a comment"));
+  EXPECT_THAT(validate("Ada", "right", "\xEF\xBB\xBF "), HasSubstr("give a reason"));
+  EXPECT_EQ(validate("\xD0\x90\xD0\xB4\xD0\xB0", "right", "so"), "") << "a name in Cyrillic";
+  for (const char* other : {"a. op", "A\xE2\x80\xA4 Op", "A.\xE2\x80\x8BOp", "A Op."})
+    EXPECT_TRUE(sessions::samePerson("A. Op", other)) << other;
+  EXPECT_FALSE(sessions::samePerson("A. Op", "B. Op"));
+  EXPECT_FALSE(sessions::samePerson("-", "+"));
 }
 
 TEST_F(Decide, RobustAnnotations_InvalidateAValidationOfAnAnnotatedCase) {

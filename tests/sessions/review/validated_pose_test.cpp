@@ -5,6 +5,10 @@
 #include <fstream>
 #include <functional>
 #include <optional>
+#include <regex>
+#include <set>
+#include <span>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -13,9 +17,13 @@
 #include "sessions/decision/check_limits.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/review/review_status.h"
+#include "sessions/session/case_dependencies.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/input_check.h"
+#include "sessions/session/stated_inputs.h"
 #include "sessions/trace/trace_file.h"
 #include "tests/support/annotated_example.h"
 #include "tests/support/comma_locale.h"
@@ -113,9 +121,9 @@ class ValidatedPose : public testing::Test {
     return ordered_json::parse(stream);
   }
 
-  /// Signed again, as an attacker would.
-  static void resign(ordered_json& json, const fs::path& file) {
-    json["signature"] = sessions::signatureOf(ordered_json::parse(sessions::prettyJson(json)));
+  /// With a checksum of its own, as an attacker would write it.
+  static void rewrite(ordered_json& json, const fs::path& file) {
+    json["checksum"] = sessions::checksumOf(ordered_json::parse(sessions::prettyJson(json)));
     sessions::writeJsonFile(file, json);
   }
 
@@ -138,7 +146,7 @@ class ValidatedPose : public testing::Test {
                                      const Edit& forge) {
       ordered_json json = good;
       forge(json);
-      resign(json, file);
+      rewrite(json, file);
       EXPECT_THAT(wrongsOf(sessions::verifyPose(file, run_again)), wrongs);
     };
   }
@@ -219,8 +227,11 @@ void eachLeaf(ordered_json& json, const Edit& act) {
 }
 
 void alter(ordered_json& leaf) {
-  if (leaf.is_string())
-    leaf = leaf.get<std::string>() + "x";
+  const std::string text = leaf.is_string() ? leaf.get<std::string>() : "";
+  if (sessions::isSha256Text(text))
+    leaf = text.substr(1) + (text.back() == '0' ? "1" : "0");
+  else if (leaf.is_string())
+    leaf = text + "x";
   else if (leaf.is_number_float())
     leaf = std::nextafter(leaf.get<double>(), 1e9);
   else if (leaf.is_number())
@@ -252,7 +263,7 @@ TEST_F(ValidatedPose, AlteredMember_IsAlwaysDetected) {
   EXPECT_GT(place, 300);
 }
 
-TEST_F(ValidatedPose, ForgedPoseWithNewSignature_IsDetected) {
+TEST_F(ValidatedPose, ForgedPoseWithNewChecksum_IsDetected) {
   const auto expectForged = forging(writeValidated());
   const auto shift = [](ordered_json& x_m) { x_m = x_m.get<double>() + 1e-4; };
   const auto shiftPose = [&](ordered_json& json) {
@@ -289,15 +300,56 @@ TEST_F(ValidatedPose, AFailedCheckStatedAsPassedIsFoundWhenItIsMadeAgain) {
                                "and measured as failed"),
                      HasSubstr("'Predicted edges that are seen' is stated as passed")),
                pass);
-  expectForged(true, HasSubstr("with another text"), [](ordered_json& json) {
-    eachCheck(json, "edge_clutter", [](ordered_json& check) { check["sentence"] = "Perfect."; });
-  });
   expectForged(true, HasSubstr("checks are stated, but"), [](ordered_json& json) {
     for (ordered_json* document : {&json, &decisionOf(json)}) (*document)["checks"].erase(0);
   });
   expectForged(false, "", pass);  // without a run nothing is measured
   EXPECT_THAT(sessions::verifyPose(file, false).not_proved,
               Contains(HasSubstr("covariance and checks: not measured")));
+}
+
+/// The version that verifies may word a check in another way than the one that decided.
+TEST_F(ValidatedPose, CheckWithOtherWords_IsTheSameCheck) {
+  run();
+  validate();
+  for (sessions::JudgedCheck& judged : session_.decisions.back().checks) {
+    judged.check.title += " (as it was called)";
+    judged.check.sentence = "It was worded in another way.";
+  }
+  std::ranges::reverse(session_.decisions.back().checks);
+  EXPECT_THAT(verified(write()).not_proved,
+              Contains(AllOf(StartsWith("wording: "), HasSubstr("Inliers"))));
+}
+
+TEST_F(ValidatedPose, Report_StatesWhetherAPersonValidatedThePose) {
+  run();
+  EXPECT_FALSE(verified(write()).validated);
+  validate();
+  session_.review.second_person = true;
+  EXPECT_FALSE(verified(write()).validated) << "a second person must approve";
+  session_ = approved(session_, id_, {"Bob", "yes"});
+  const fs::path file = write();
+  EXPECT_TRUE(verified(file).validated);
+  EXPECT_THAT(verified(file).not_proved, Contains(StartsWith("written: by Boresight ")));
+}
+
+TEST_F(ValidatedPose, SignersWithoutADecision_AreNoProof) {
+  const fs::path file = write();
+  const fs::path signers = folder_.write("signers", std::string_view());
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, false, false, {std::nullopt, signers})),
+              HasSubstr("key: there is no decision"));
+}
+
+TEST_F(ValidatedPose, ChecksumOf1_0_HasItsFormerName) {
+  const fs::path file = writeValidated();
+  ordered_json json = read(file);
+  json.erase("checksum");
+  json["signature"] = sessions::checksumOf(json, sessions::kFormerChecksumMember);
+  sessions::writeJsonFile(file, json);
+  EXPECT_TRUE(sessions::verifyPose(file, false).good());
+  json["signature"]["digest"] = std::string(64, '0');
+  sessions::writeJsonFile(file, json);
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, false)), StartsWith("checksum: "));
 }
 
 /// Everything that follows from the covariance is made to follow.
@@ -315,7 +367,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
   pose.review_status = "validated by Ada";
   pose.checks = decision.checks;
   ordered_json json = validatedPoseJson(edited, pose, subject_.run, file);
-  resign(json, file);
+  rewrite(json, file);
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)),
               StartsWith("covariance: the covariance differs"));
 }
@@ -328,7 +380,7 @@ TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
     (*decision)["by"] = "Flight Director";
     (*decision)["time"] = "2020-01-01T00:00:00Z";
   }
-  resign(json, file);
+  rewrite(json, file);
   EXPECT_THAT(verified(file).not_proved,
               AllOf(Contains(HasSubstr("who: Flight Director")),
                     Contains(HasSubstr("when: 2020-01-01T00:00:00Z")),
@@ -344,15 +396,13 @@ TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
   EXPECT_THAT(verified(file).not_proved, not_proved);
   EXPECT_THAT(verified(file, true).not_proved, Not(not_proved));
   ordered_json json = read(file);
-  eachCheck(json, "convergence_competing", [](ordered_json& check) {
-    check["sentence"] = "No other pose and no mirror image of the station is likely.";
-  });
-  resign(json, file);
+  eachCheck(json, "convergence_competing", [](ordered_json& check) { check["figure"] = 0.125; });
+  rewrite(json, file);
   EXPECT_THAT(verified(file).not_proved, not_proved);
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, true)),
               HasSubstr("'Best competing pose' is stated as"));
   expectRefused("'Best competing pose' is stated as", [](sessions::Decision& decision) {
-    checkOf(decision, "convergence_competing").check.sentence = "None.";
+    checkOf(decision, "convergence_competing").check.figure = 0.125;
   });
 }
 
@@ -434,6 +484,149 @@ TEST_F(ValidatedPose, OptionsThatHaveChangedSinceAreThoseOfItsRun) {
   options.pnp.seed += 1;
   session_ = withOptions(session_, "default", options);
   verified(write());
+}
+
+/// A case with all that a decision depends on: a rig whose other camera ran and was annotated,
+/// frames, mask with strokes, sigmas, truth, requirement, onboard record, two persons.
+class WholeCase : public ValidatedPose {
+ protected:
+  void SetUp() override {
+    ValidatedPose::SetUp();
+    fs::copy(exampleFolder() / "../frames/arm.json", folder_ / "arm.json");
+    fs::copy(exampleFolder() / "../../../tests/sessions/formats/1.0/run.whsr", folder_ / "a.whsr");
+    sessions::SessionCase left = *session_.findCase(id_);
+    const std::vector<std::uint8_t> nothing(
+        static_cast<std::size_t>(left.image.width) * left.image.height, 0);
+    sessions::writePng(folder_ / "mask.png", nothing, left.image.width, left.image.height, 1);
+    left.ignore = inputOf("mask.png");
+    left.ignore_strokes.push_back({.radius_px = 2.0, .points = {{3.0, 4.0}}, .name = "screw"});
+    left.onboard_record = inputOf("a.whsr");
+    left.rig = sessions::Rig{"rig", Pose()};
+    left.mesh_scale_sigma = 0.0004;
+    left.calibration_sigma = sessions::CalibrationSigma{0.0003, 0.4};
+    left.requirement = sessions::Requirement{0.5, 0.5, 0.3, {}};
+    left.feature_size_m = 0.01;
+    left.tags = {"low sun"};
+    left.truth_covariance = Matrix6d(1e-10 * Matrix6d::Identity());
+    left.camera_from_station_working = left.camera_from_station_seed;
+    session_ = withCase(session_, left);
+    sessions::StatedInputs stated;
+    stated.frames = sessions::readFrameTransforms(folder_ / "arm.json");
+    session_ = withStated(session_, id_, stated);
+    sessions::SessionCase right = *session_.findCase(id_);
+    right.id = "right";
+    right.rig->camera_from_rig.translation_m.x() = 1e-5;
+    session_ = withCase(session_, right);
+    session_ = withAnnotations(session_, "right", *session_.annotations.at(id_));
+    static const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
+    ASSERT_TRUE(trace.converged());
+    for (const std::string& id : {std::string("right"), id_})
+      session_ = withRun(session_, storeRun(session_, id, trace, folder_ / "s.boresight.json"));
+    validate();
+    session_.review.second_person = true;
+    session_ = approved(session_, id_, {"Bob", "yes"});
+    file_ = write();
+  }
+
+  sessions::InputFile inputOf(const char* name) const {
+    return {folder_ / name, sessions::inputSha256(folder_ / name)};
+  }
+
+  bool verifies(const fs::path& file, bool run_again) const {
+    try {
+      const VerifyReport report = sessions::verifyPose(file, run_again);
+      return report.good() && report.validated;
+    } catch (const sessions::InputError&) {
+      return false;
+    }
+  }
+
+  fs::path file_;
+};
+
+/// Calls `act` with the pointer of each leaf; of a list that is longer than two, with those of its
+/// first and last element.
+void eachPlace(const ordered_json& json, const ordered_json::json_pointer& place,
+               const std::function<void(const ordered_json::json_pointer&)>& act) {
+  if (!json.is_structured()) return act(place);
+  for (const auto& item : json.items()) {
+    if (json.is_object())
+      eachPlace(item.value(), place / item.key(), act);
+    else if (const std::size_t index = std::stoul(item.key());
+             index == 0 || index + 1 == json.size())
+      eachPlace(item.value(), place / index, act);
+  }
+}
+
+/// Data that may change without notice, and why.
+const std::vector<std::pair<std::string, const char*>>& freePlaces() {
+  static const std::vector<std::pair<std::string, const char*>> kFree = {
+      {"/written/.*", "by whom and when a file was written is listed as not proved"},
+      {"/session/cases/[0-9]+/tags/.*", "a note"},
+      {"/session/cases/[0-9]+/working/.*", "no run uses the nudged pose"},
+      {"/session/cases/[0-9]+/(parts|ignore_strokes)/[0-9]+/name", "a note"},
+      {"/session/cases/[0-9]+/rig/id", "a name that only joins the cameras"},
+      {"/session/cases/[0-9]+/frames/[0-9]+/path", "where a file is; its bytes count"},
+      {"/session/runs/[0-9]+/(file|version|time)", "the run is repeated: its trace is not needed"},
+      {"/session/review/second_person", "both persons are named"},
+      {"/session/cases/1/(station|truth|truth_covariance|truth_source|requirement|onboard_record|"
+       "camera_from_end_effector|frames|feature_size_m)(/.*)?",
+       "of the other camera only its pose counts"},
+  };
+  return kFree;
+}
+
+bool isFree(const std::string& place) {
+  return std::ranges::any_of(freePlaces(), [&place](const auto& free) {
+    return std::regex_match(place, std::regex(free.first));
+  });
+}
+
+/// One change at a time, with a checksum that fits. Where the digests alone do not show it, the run
+/// is repeated.
+TEST_F(WholeCase, EveryLeafOfTheDocument_IsCoveredOrNamedAsFree) {
+  ASSERT_TRUE(verifies(file_, true)) << wrongsOf(sessions::verifyPose(file_, true));
+  ordered_json json = read(file_);
+  const fs::path changed = folder_ / "changed.json";
+  const std::set<std::string> kOfRun = {"/run/digest", "/run/options/pnp.seed",
+                                        "/run/matches/0/pixel/0"};
+  int places = 0;
+  std::vector<std::string> uncovered;
+  eachPlace(read(file_), ordered_json::json_pointer(), [&](const auto& place) {
+    const std::string name = place.to_string();
+    const bool of_run = name.starts_with("/run/");  // only the repeated run shows it
+    if (name.starts_with("/checksum") || (of_run && !kOfRun.contains(name))) return;
+    ++places;
+    const ordered_json before = json[place];
+    alter(json[place]);
+    rewrite(json, changed);
+    if (verifies(changed, false) && !isFree(name) && verifies(changed, true))
+      uncovered.push_back(name);
+    json[place] = before;
+  });
+  EXPECT_THAT(uncovered, IsEmpty());
+  EXPECT_GT(places, 500);
+}
+
+TEST_F(WholeCase, EveryByteRangeOfEveryFile_IsCovered) {
+  std::set<fs::path> files;
+  for (const auto& session_case : session_.cases)
+    sessions::forEachFile(*session_case, [&files](const std::string&, const fs::path& file,
+                                                  const std::string&) { files.insert(file); });
+  EXPECT_EQ(files.size(), 5u) << "image, mesh, mask, record, frames";
+  for (const fs::path& file : files) {
+    const std::vector<std::uint8_t> good = sessions::readFileBytes(file, 1 << 28);
+    for (const std::size_t at : {std::size_t{0}, good.size() / 3, good.size() - 1}) {
+      std::vector<std::uint8_t> bytes = good;
+      bytes[at] ^= 1;
+      folder_.write(file.string(), bytes);
+      EXPECT_FALSE(verifies(file_, false)) << file << " " << at;
+    }
+    folder_.write(file.string(), std::span(good).first(good.size() / 2));
+    EXPECT_FALSE(verifies(file_, false)) << file << " cut";
+    folder_.write(file.string(), good);
+  }
+  EXPECT_TRUE(verifies(file_, false));
 }
 
 /// Keys are made for the test. A name has blanks, and characters of a shell.

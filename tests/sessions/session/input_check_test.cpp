@@ -63,6 +63,63 @@ TEST(InputCheck, ChangedInputs_AreLoadedOnlyAfterAcceptance) {
               HasSubstr("bc/model.ply: its bytes differ from those"));
 }
 
+/// Frames are inputs like meshes: their files are looked for, hashed, accepted and packed.
+TEST(InputCheck, FilesOfFrames_AreInputs) {
+  const TemporaryFolder folder;
+  const std::filesystem::path stations = copyOfExamples(folder);
+  const std::filesystem::path arm = folder / "frames/arm.json";
+  std::filesystem::create_directories(folder / "frames");
+  std::filesystem::copy(exampleFolder() / "../frames/arm.json", arm);
+  CaseFiles files = filesOf(stations / "bc");
+  files.transforms = {arm};
+  const Session session = withCase({}, makeCase(files).made);
+  const std::filesystem::path file = folder / "s.boresight.json";
+  writeSessionFile(file, session);
+  EXPECT_THAT(folder.read("s.boresight.json"), HasSubstr("\"path\": \"frames/arm.json\""));
+  const Session read = readSessionFile(file).session;
+  EXPECT_TRUE(read == session);
+  EXPECT_THAT(checkInputs(read), IsEmpty());
+
+  std::filesystem::rename(arm, folder / "frames/moved.json");
+  EXPECT_EQ(checkInputs(read).size(), 1u) << "three transforms of one file";
+  EXPECT_THAT(findMissing(read, file), ElementsAre(Relink{arm, folder / "frames/moved.json"}));
+  std::filesystem::rename(folder / "frames/moved.json", arm);
+  writePack(planPack(read, file), folder / "s.zip");
+  unpack(folder / "s.zip", folder / "there");
+  const std::filesystem::path there = folder / "there/s.boresight/s.boresight.json";
+  const Session unpacked = readSessionFile(there).session;
+  EXPECT_THAT(checkInputs(unpacked), IsEmpty());
+  EXPECT_TRUE(unpacked.cases[0]->frames[0].file.string().starts_with((folder / "there").string()));
+
+  std::string text = folder.read("frames/arm.json");
+  text.replace(text.find("0.39]"), 5, "0.41]");
+  folder.write("frames/arm.json", text);
+  EXPECT_THAT(checkInputs(read)[0],
+              finding(FindingKind::kChanged, "frames[0]", "differs from the session's file"));
+  const Session accepted = acceptingInputs(read, "bc");
+  EXPECT_THAT(checkInputs(accepted), IsEmpty());
+  EXPECT_EQ(accepted.cases[0]->camera_from_end_effector->translation_m.z(), 0.41);
+  text.replace(text.find("END_EFFECTOR"), 12, "WRIST");
+  folder.write("frames/arm.json", text);
+  EXPECT_THAT(folder.message([&] { (void)acceptingInputs(read, "bc"); }),
+              HasSubstr("no longer joins ARM_BASE and END_EFFECTOR"));
+}
+
+/// Sessions of version 1.0 name the files of frames without their folders.
+TEST(InputCheck, FramesWithoutAFolder_AreNotLookedFor) {
+  const TemporaryFolder folder;
+  Session session = withCase({}, makeCase(filesOf(copyOfExamples(folder) / "bc")).made);
+  session = withChanged(session, "bc", [](SessionCase& session_case) {
+    session_case.frames = {shifted(kCameraFrame, kEndEffectorFrame, 0.1)};
+    session_case.frames[0].file = "t.json";
+    session_case.frames[0].file_sha256 = std::string(64, 'a');
+  });
+  writeSessionFile(folder / "s.json", session);
+  const Session read = readSessionFile(folder / "s.json").session;
+  EXPECT_TRUE(read == session);
+  EXPECT_THAT(checkInputs(read), IsEmpty());
+}
+
 TEST(InputCheck, FindsMovedFilesByNameAndHash) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);

@@ -88,11 +88,16 @@ TEST(InputSheet, FlagsATruthWhoseSigmaExceedsTheRequirement) {
     return flagsWith([sigma_m](SessionCase& session_case) {
       Matrix6d covariance = 1e-12 * Matrix6d::Identity();
       covariance.bottomRightCorner<3, 3>() = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
-      setTruth(session_case, session_case.camera_from_station_seed, covariance);
+      setTruth(session_case, session_case.camera_from_station_seed, {}, covariance);
     });
   };
   EXPECT_THAT(with_sigma(1e-5), Not(Contains("truth_uncertain")));
   EXPECT_THAT(with_sigma(5e-3), Contains("truth_uncertain"));
+  EXPECT_THAT(flagsWith([](SessionCase& session_case) {
+                setTruth(session_case, session_case.camera_from_station_seed,
+                         {sessions::TruthOrigin::kRun, "", "", std::string(64, 'a')});
+              }),
+              Contains("truth_of_run"));
 }
 
 /// The example with its pixels changed, since a file with other pixels would be refused.

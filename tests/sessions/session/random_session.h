@@ -75,7 +75,8 @@ inline void addRandomFrames(Random& random, sessions::SessionCase& session_case)
   if (coin(random)) join.covariance = Matrix6d(Vector6d::Constant(1e-6).asDiagonal());
   join.target_from_source = randomPose(random);
   join.comment = "sol 12";
-  join.file = "transform.json";
+  join.file = coin(random) ? std::filesystem::path("/data/transform.json")
+                           : std::filesystem::path("transform.json");
   join.file_sha256 = randomSha256(random);
   if (coin(random)) session_case.truth_frame = session_case.station_frame;
 }
@@ -99,6 +100,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   session_case.image.width = 1 + static_cast<int>(random.below(4000));
   session_case.image.height = 1 + static_cast<int>(random.below(4000));
   session_case.image.pixels_sha256 = randomSha256(random);
+  if (coin(random)) session_case.image.color_sha256 = randomSha256(random);
   auto& eight_bit = session_case.image.eight_bit;
   if (coin(random)) eight_bit.bit_depth = 1 + static_cast<int>(random.below(8));
   if (coin(random)) eight_bit.bayer = static_cast<sessions::BayerPattern>(random.below(4));
@@ -129,6 +131,10 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   session_case.uncertainty.rotation_deg = randomVector(random, 9.0).cwiseAbs();
   if (coin(random)) session_case.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
   if (coin(random)) session_case.camera_from_station_truth = randomPose(random);
+  if (coin(random))
+    session_case.truth_source =
+        sessions::TruthSource{static_cast<sessions::TruthOrigin>(random.below(4)), "truth.json",
+                              randomSha256(random), randomSha256(random)};
   addRandomSigmas(random, session_case);
   if (coin(random)) session_case.camera_from_station_working = randomPose(random);
   if (coin(random)) session_case.ignore = randomInput(random, ".png");
@@ -258,6 +264,8 @@ inline sessions::Session randomSession(Random& random) {
       session.runs.back().together = sessions::TogetherRecord{
           {{id, "converged"}, {"another \xC3\xBC", "too_few_matches"}}, randomSha256(random)};
     if (coin(random) && !session.runs.empty()) session.runs.back().rerun = randomRerun(random);
+    if (coin(random) && !session.runs.empty())
+      session.runs.back().end_effector_in_camera_m = randomVector(random, 0.5);
     if (coin(random)) session.view = {id, "", static_cast<std::int32_t>(random.below(9)) - 1};
   }
   session.robust_annotations = coin(random);

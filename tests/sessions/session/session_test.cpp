@@ -186,6 +186,51 @@ TEST(StaleRuns, SaysAsStalenessWhateverIsEditedAndUndone) {
   EXPECT_GT(fresh_count, 20);
 }
 
+TEST(CurrentRun, IsTheLastOneOfTheInputsThatTheCaseHas) {
+  Session session = makeSession(test::exampleFolder() / "dataset.json");
+  const std::string id = session.cases.front()->id;
+  const auto refusal = [&id](const Session& asked) {
+    try {
+      (void)currentRunOf(asked, id);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal(session), HasSubstr("it has no run: run it first"));
+  session = asIfRun(session);
+  EXPECT_EQ(&currentRunOf(session, id), session.lastRunOf(id));
+  LocalizerOptions options = sessionOptions(session, {});
+  options.pnp.seed += 1;
+  EXPECT_EQ(refusal(withOptions(session, session.profile, options)), "") << "the pose stays";
+  const std::function<void(SessionCase&)> edits[] = {
+      [](auto& item) { item.camera.fx *= 1.01; },
+      [](auto& item) { item.camera_from_station_seed.translation_m.x() += 1e-3; },
+      [](auto& item) { item.image.color_sha256 = std::string(64, 'a'); }};
+  for (const auto& edit : edits)
+    EXPECT_THAT(refusal(withChanged(session, id, edit)), HasSubstr("changed since the last run"));
+}
+
+/// The end effector is an input of runs that measure their corrections there, and of no others.
+TEST(CurrentRun, OfARunThatUsedTheEndEffector_EndsWithAnotherOne) {
+  Session session = asIfRun(makeSession(test::exampleFolder() / "dataset.json"));
+  const std::string id = session.cases.front()->id;
+  const auto withEffector = [&](double z_m) {
+    return withChanged(session, id, [z_m](SessionCase& item) {
+      item.camera_from_end_effector.emplace().translation_m = {0.0, 0.0, z_m};
+    });
+  };
+  EXPECT_FALSE(inputsChangedSince(*session.lastRunOf(id), withEffector(0.3)));
+  for (RunRecord& run : session.runs) run.end_effector_in_camera_m = {0.0, 0.0, 0.3};
+  const auto& run = *session.lastRunOf(id);
+  StaleRuns known;
+  for (const double z_m : {0.3, 0.4}) {
+    const Session edited = withEffector(z_m);
+    EXPECT_EQ(inputsChangedSince(run, edited), z_m != 0.3);
+    EXPECT_EQ(known.isStale(run, edited.cases.front(), edited, {}), z_m != 0.3);
+  }
+}
+
 Pose somePose(double x_m) {
   Pose pose;
   pose.rotation = Eigen::Quaterniond(0.9, 0.1, -0.2, 0.3).normalized();

@@ -37,7 +37,7 @@ TEST(StatedInputs, TransformsGiveTheEndEffectorAndReplaceFormerOnes) {
   stated.frames = {shifted(kCameraFrame, kEndEffectorFrame, 0.1)};
   Session session = withStated(oneCase(), "a", stated);
   EXPECT_NEAR(session.cases[0]->camera_from_end_effector->translation_m.x(), 0.1, 1e-12);
-  EXPECT_EQ(session.cases[0]->frames[0].file, "t.json");
+  EXPECT_EQ(session.cases[0]->frames[0].file, "/folder/t.json") << "its bytes belong to the case";
   // The other way round is the same two frames.
   stated.frames = {shifted(kEndEffectorFrame, kCameraFrame, -0.4)};
   session = withStated(session, "a", stated);
