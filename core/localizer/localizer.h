@@ -96,8 +96,8 @@ class Localizer {
   const MemoryUse& memoryUse() const { return pass_.memory().use(); }
   std::size_t highWaterBytes() const { return pass_.memory().highWaterBytes(); }
   ///@}
-  /// SHA-256 over options, inputs and every intermediate up to now; large arrays (image, mask, mesh,
-  /// edges, renders, samples) enter with their CRC-32 (run_digest.h).
+  /// SHA-256 over options, inputs and every intermediate up to now; large arrays (image, mask,
+  /// mesh, edges, renders, samples) enter with their CRC-32 (run_digest.h).
   std::array<std::uint8_t, 32> digest() const { return pass_.digest().digest(); }
 
  private:
