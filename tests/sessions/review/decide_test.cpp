@@ -219,7 +219,7 @@ TEST_F(Decide, InvisibleText_IsNoNameNoCommentAndNoReason) {
   judged.checks[1].state = CheckState::kFailed;
   EXPECT_THAT(validate("\xE2\x80\x8B", "right", "so"), HasSubstr("give your name"));
   EXPECT_THAT(validate("Ada", "\xC2\xA0\xE2\x81\xA0", "so"), HasSubstr("give a comment"));
-  EXPECT_THAT(validate("Ada", "right", "\xEF\xBB\xBF "), HasSubstr("give a reason"));
+  EXPECT_THAT(validate("Ada", "right", "\xEF\xBB\xBF "), HasSubstr("not waived"));
   EXPECT_EQ(validate("\xD0\x90\xD0\xB4\xD0\xB0", "right", "so"), "") << "a name in Cyrillic";
   for (const char* other : {"a. op", "A\xE2\x80\xA4 Op", "A.\xE2\x80\x8BOp", "A Op."})
     EXPECT_TRUE(sessions::samePerson("A. Op", other)) << other;
