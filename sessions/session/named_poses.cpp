@@ -17,8 +17,8 @@ std::string joinText(const FrameChain& chain) {
   std::string text;
   for (const FrameLink& link : chain.links) {
     if (link.transform->target == kCameraFrame && link.transform->file_sha256.empty()) continue;
-    text +=
-        (text.empty() ? "" : "; ") + link.transform->file.string() + ": " + link.transform->comment;
+    text += (text.empty() ? "" : "; ") + link.transform->file.filename().string() + ": " +
+            link.transform->comment;
   }
   return text;
 }
