@@ -40,7 +40,7 @@ QTreeWidgetItem* itemOf(const sessions::FrameRow& row, int index) {
   const auto source = static_cast<std::size_t>(row.transform->origin);
   item->setText(kSource, fromText(sessions::kTransformSourceNames[source]));
   item->setText(kComment, fromText(row.transform->comment));
-  const QString file = fromText(row.transform->file.filename().string());
+  const QString file = fromText(row.transform->file.string());
   for (int column = 0; column < kColumns; ++column) item->setToolTip(column, file);
   return item;
 }
