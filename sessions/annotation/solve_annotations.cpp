@@ -241,9 +241,11 @@ double normalizedResidual(const AnnotationResidual& annotation, const Matrix6d& 
 
 double pixelsPerRadian(const Camera& camera) { return 0.5 * (camera.fx + camera.fy); }
 
+/// `inverse`: of the fit's information, (J' W J)^-1.
 void describeAnnotations(std::span<const AnnotatedView> views,
                          std::span<const AnnotationAddress> annotations, const Fit& fit,
-                         AnnotationsSolution& solution) {
+                         const Matrix6d& inverse, AnnotationsSolution& solution) {
+  const double noise_factor = std::max(solution.noise_factor, 1e-6);
   for (std::size_t i = 0; i < annotations.size(); ++i) {
     const AnnotatedView& view = views[annotations[i].view];
     const AnnotationResidual annotation =
@@ -256,10 +258,9 @@ void describeAnnotations(std::span<const AnnotatedView> views,
       solved.residual_px = annotation.residual_px;
       solved.residual_mm =
           annotation.residual_px * (1000.0 * annotation.depth_m / pixelsPerRadian(view.camera));
-      const double noise_px =
-          annotationSigma_px(views, annotations[i]) * std::max(solution.noise_factor, 1e-6);
-      solved.normalized =
-          normalizedResidual(annotation, cameraCovariance(solution, view), noise_px, solved.weight);
+      solved.normalized = normalizedResidual(
+          annotation, noise_factor * noise_factor * covarianceIn(view.camera_from_rig, inverse),
+          noise_factor * annotationSigma_px(views, annotations[i]), solved.weight);
     }
     solution.annotations.push_back(solved);
   }
@@ -276,10 +277,11 @@ AnnotationsSolution describe(std::span<const AnnotatedView> views,
   solution.degrees_of_freedom = std::max(0, static_cast<int>(std::floor(freedom + 1e-9)));
   if (solution.degrees_of_freedom > 0)
     solution.noise_factor = std::sqrt(fit.equations.squares / freedom);
-  Matrix6d covariance;
-  if (invert(fit.equations.information, covariance))
-    solution.covariance = solution.noise_factor * solution.noise_factor * covariance;
-  describeAnnotations(views, annotations, fit, solution);
+  Matrix6d inverse;
+  if (!invert(fit.equations.information, inverse)) inverse.setZero();
+  const double noise = std::max(1.0, solution.noise_factor);
+  solution.covariance = noise * noise * inverse;
+  describeAnnotations(views, annotations, fit, inverse, solution);
   double squares_px = 0.0;
   for (const SolvedAnnotation& annotation : solution.annotations)
     squares_px += annotation.weight * annotation.residual_px.squaredNorm();
@@ -344,8 +346,7 @@ std::vector<LeftOut> leaveOneOut(std::span<const AnnotatedView> views,
 }
 
 Matrix6d cameraCovariance(const AnnotationsSolution& solution, const AnnotatedView& view) {
-  const Matrix6d camera_by_rig = adjointOf(view.camera_from_rig);
-  return camera_by_rig * solution.covariance * camera_by_rig.transpose();
+  return covarianceIn(view.camera_from_rig, solution.covariance);
 }
 
 }  // namespace boresight::sessions

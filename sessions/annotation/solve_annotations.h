@@ -54,8 +54,9 @@ struct AmbiguousPose {
 struct AnnotationsSolution {
   Pose rig_from_station;
   std::vector<Pose> camera_from_station;  ///< by view
-  /// Over xi = (rotation rad, translation m), left perturbation, rig frame: noise_factor^2
-  /// (J' W J)^-1 with W = 1 / sigma_px^2.
+  /// Over xi = (rotation rad, translation m), left perturbation, rig frame:
+  /// max(1, noise_factor)^2 (J' W J)^-1 with W = 1 / sigma_px^2. Small residuals of few annotations
+  /// do not lower it: they are as likely chance.
   Matrix6d covariance = Matrix6d::Zero();
   /// Root of the weighted squares over the degrees of freedom: 1 when the annotations are as
   /// accurate as their sigmas state, and without redundancy.

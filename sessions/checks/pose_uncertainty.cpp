@@ -159,8 +159,10 @@ std::vector<Correction> correctionsOf(const SessionCase& session_case,
   if (!session_case.camera_from_end_effector || !session_case.has_seed) return {};
   const EndEffectorPose pose = endEffectorPose(session_case, camera_from_station, covariance);
   const Pose move = pose.end_effector_seed_from_end_effector_estimated.inverse();
+  // (move^-1 Exp(xi))^-1 = Exp(xi)^-1 move turns by -r and shifts by -t - r x move.translation_m.
+  const Pose back{Eigen::Quaterniond::Identity(), -move.translation_m};
   const Correction own{kEndEffectorFrame, move.translation_m, rotationLog(move.rotation),
-                       pose.covariance};
+                       covarianceIn(back, pose.covariance)};
   std::vector<Correction> corrections = {own};
   const FrameTree tree = framesOf(session_case);
   for (const FrameName& frame : tree.frames()) {

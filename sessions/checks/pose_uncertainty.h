@@ -50,7 +50,8 @@ struct EndEffectorPose {
   /// end_effector_seed_from_target in the estimated frame.
   Pose end_effector_seed_from_end_effector_estimated;
   /// Of both poses, over xi = (rotation rad, translation m), right perturbation, in the end
-  /// effector's frame: a_from_end_effector * Exp(xi). Zero when `covariance` is zero.
+  /// effector's frame: a_from_end_effector * Exp(xi), with the Exp of `perturbed`. Zero when
+  /// `covariance` is zero.
   Matrix6d covariance = Matrix6d::Zero();
 };
 
@@ -71,7 +72,10 @@ struct Correction {
   FrameName frame;
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< rotation vector
-  Matrix6d covariance = Matrix6d::Zero();                  ///< (rotation rad, translation m)
+  /// Over (r rad, t m) in `frame`: the move is rotationExp(r) * rotationExp(rotation_rad) and
+  /// translation_m + t. The first is a left perturbation, the second a sum: r does not turn
+  /// translation_m.
+  Matrix6d covariance = Matrix6d::Zero();
 };
 
 /// In the end effector's frame and in every frame that is joined to it; empty for a case without an

@@ -163,6 +163,8 @@ Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
 
 constexpr const char* kNotRequired = "The requirement does not limit this value.";
 constexpr const char* kNoCovariance = "The pose has no covariance.";
+/// Fewer do not show whether annotations are as accurate as their sigmas state.
+constexpr int kLeastDegreesOfFreedom = 6;
 constexpr const char* kPictureRemedy =
     "The seen edges constrain the pose too weakly: take a nearer image, or one with more of the "
     "station.";
@@ -193,6 +195,11 @@ Check precisionCheck(const ReviewSubject& subject, const PrecisionFigure& figure
                      const std::string& sigmas) {
   if (!figure.required) return notAskedCheck(figure.check, kNotRequired);
   if (!figure.found) return notAskedCheck(figure.check, kNoCovariance);
+  const int freedom = subject.degrees_of_freedom.value_or(kLeastDegreesOfFreedom);
+  if (freedom < kLeastDegreesOfFreedom && *figure.found <= *figure.required)
+    return notAskedCheck(figure.check, "The annotations have " + std::to_string(freedom) +
+                                           " degrees of freedom, which do not confirm their "
+                                           "sigmas: annotate at least 6 points.");
   return measuredCheck(figure.check, figure.unit, *figure.found, *figure.required,
                        LimitSide::kAtMost,
                        sigmas + figure.place + " are " + sentenceNumber(*figure.found) + " " +

@@ -36,7 +36,9 @@ std::optional<OtherPose> poseOfAnnotations(const Session& session, const LoadedC
                            boxCorners(matchedBounds(loaded.scene.view())));
   reason = solved.result.reason;
   if (!solved.result.solution) return {};
-  return OtherPose{"the annotation", *solved.camera_from_station(), {*solved.covariance()}};
+  OtherPose pose{"the annotation", *solved.camera_from_station(), {*solved.covariance()}};
+  pose.degrees_of_freedom = solved.result.solution->degrees_of_freedom;
+  return pose;
 }
 
 /// Another camera's pose as this camera sees the station. Nothing unless its last run of its own
@@ -128,6 +130,7 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
     subject.camera_from_station = annotated->camera_from_station;
     subject.covariance = poseCovariance(session_case, loaded->scene.view(),
                                         subject.camera_from_station, annotated->covariance.picture);
+    subject.degrees_of_freedom = annotated->degrees_of_freedom;
     subject.loaded = loaded;
   }
   subject.source = source;

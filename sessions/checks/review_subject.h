@@ -24,6 +24,7 @@ struct OtherPose {
   PoseCovariance covariance = {};  ///< of the annotation only the annotations' own part
   /// Of another camera of the rig: its centre, in this camera's frame.
   Eigen::Vector3d centre_in_camera_m = Eigen::Vector3d::Zero();
+  int degrees_of_freedom = 0;  ///< of the annotation's fit
 };
 
 /// A pose of a case with all data to check it. A value: it may be checked on any thread.
@@ -31,6 +32,8 @@ struct ReviewSubject : JudgedPose {
   std::shared_ptr<const LoadedCase> loaded;
   Requirement requirement;               ///< the case's own, else the preset's
   std::optional<LocalizationTrace> run;  ///< source of the pose; empty for annotated poses
+  /// Of the fit of annotations that is the source of the pose; empty for a run.
+  std::optional<int> degrees_of_freedom;
   std::optional<OtherPose> annotated;    ///< by the case's annotations, unless these are the source
   std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
   std::optional<RecordComparison>

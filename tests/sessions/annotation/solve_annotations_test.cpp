@@ -11,6 +11,7 @@
 
 #include "core/pnp/normal_equations.h"
 #include "tests/sessions/annotation/annotated_scene.h"
+#include "tests/support/coverage.h"
 #include "tests/support/matchers.h"
 
 namespace boresight::sessions {
@@ -184,7 +185,8 @@ TEST(SolveAnnotations, Rig_IsSolvedTogether) {
     single += off_m(alone);
     together += off_m(both);
     const auto stated = [](const AnnotationsSolution& solution) {
-      return solution.covariance.trace() / (solution.noise_factor * solution.noise_factor);
+      const double noise = std::max(1.0, solution.noise_factor);
+      return solution.covariance.trace() / (noise * noise);
     };
     EXPECT_LT(stated(both), stated(alone));
   }
@@ -289,8 +291,10 @@ TEST_P(SolveAnnotationsStatistics, NormalizedErrorSquaredHasTheRightMean) {
         perturbationBetween(solution.rig_from_station, scene.camera_from_station);
     Matrix6d information;
     ASSERT_TRUE(invert(solution.covariance, information));
+    const double variance = solution.noise_factor * solution.noise_factor;
+    information *= std::max(1.0, variance) / variance;
     sum += error.dot(information.selfadjointView<Eigen::Lower>() * error) / 6.0;
-    noise_squared += solution.noise_factor * solution.noise_factor;
+    noise_squared += variance;
   }
   const double f = freedom;
   const double mean = f / (f - 2.0);
@@ -298,6 +302,29 @@ TEST_P(SolveAnnotationsStatistics, NormalizedErrorSquaredHasTheRightMean) {
   EXPECT_NEAR(sum / kDraws, mean, 4.0 * std::sqrt(variance / kDraws));
   const double expected = 1.0 / (setting.stated_factor * setting.stated_factor);
   EXPECT_NEAR(noise_squared / kDraws, expected, 4.0 * expected * std::sqrt(2.0 / f / kDraws));
+}
+
+/// Four annotations often have residuals far below their sigma by chance.
+TEST(SolveAnnotations, SigmasOfFourPoints_HoldTheErrors) {
+  Random random = randomFor("SolveAnnotations.FourPoints");
+  std::vector<double> errors;
+  for (int draw = 0; draw < 400; ++draw) {
+    AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
+    for (const Eigen::Vector3d& place_m :
+         {Eigen::Vector3d(0.1, 0.1, 0.1), Eigen::Vector3d(-0.1, -0.1, 0.1),
+          Eigen::Vector3d(-0.1, 0.1, -0.1), Eigen::Vector3d(0.1, -0.1, -0.1)})
+      addPoint(scene.view, scene.camera_from_station, place_m, 1.0, 1.0, random);
+    if (scene.view.annotations.points.size() < 4) continue;  // outside of the image
+    SolveAnnotationsOptions options;
+    options.rig_from_station_guess = scene.camera_from_station;
+    const AnnotationsSolution solution = solved(scene.views(), options);
+    const Vector6d sigma = solution.covariance.diagonal().cwiseSqrt();
+    const Vector6d error =
+        perturbationBetween(scene.camera_from_station, solution.rig_from_station);
+    for (int i = 0; i < 6; ++i) errors.push_back(error[i] / sigma[i]);
+  }
+  ASSERT_GT(errors.size(), 1000u);
+  test::expectGaussianCoverage(errors, true);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -10,6 +10,7 @@
 #include "sessions/io/cameras/camera_file.h"
 
 #include "tests/sessions/checks/drawn_box.h"
+#include "tests/support/coverage.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -310,6 +311,36 @@ TEST(Correction, MoveReachesWhatWasPlannedFromTheSeed) {
     session_case.frames[0].covariance.reset();
     EXPECT_GT(trace, correctionsOf(session_case, estimate, covariance).front().covariance.trace());
   }
+}
+
+/// The end effector is far from where the seed has it, so that turning moves the translation.
+TEST(Correction, SigmasHoldTheScatterOfDrawnPoses) {
+  Random random = randomFor("Correction.Sigmas");
+  SessionCase session_case;
+  session_case.has_seed = true;
+  session_case.camera_from_station_seed = randomPose(random);
+  session_case.camera_from_end_effector = randomPose(random);
+  const Pose estimate = randomPose(random);
+  const Matrix6d covariance = randomCovariance(random, 1e-4);
+  const Matrix6d root = covariance.llt().matrixL();
+  const Correction stated = correctionsOf(session_case, estimate, covariance).front();
+  const Vector6d sigma = stated.covariance.diagonal().cwiseSqrt();
+  std::array<std::vector<double>, 6> errors;
+  Matrix6d scatter = Matrix6d::Zero();
+  constexpr int kDraws = 4000;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const Pose drawn = perturbed(root * test::normalVector6(random), estimate);
+    const Correction found = correctionsOf(session_case, drawn, covariance).front();
+    Vector6d error;
+    error.head<3>() = rotationLog(
+        (rotationExp(found.rotation_rad) * rotationExp(-stated.rotation_rad)).normalized());
+    error.tail<3>() = found.translation_m - stated.translation_m;
+    scatter += error * error.transpose() / kDraws;
+    for (int i = 0; i < 6; ++i) errors[static_cast<std::size_t>(i)].push_back(error[i] / sigma[i]);
+  }
+  for (const std::vector<double>& component : errors) test::expectGaussianCoverage(component);
+  const Matrix6d off = (scatter - stated.covariance).cwiseQuotient(sigma * sigma.transpose());
+  EXPECT_LE(off.cwiseAbs().maxCoeff(), 0.1) << off;
 }
 
 }  // namespace

@@ -225,6 +225,17 @@ TEST_F(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
   EXPECT_EQ(checkOf("covariance_rotation").state, CheckState::kNotApplicable);
 }
 
+TEST_F(PrecisionChecks, FewAnnotations_DoNotConfirmASmallSigmaButALargeOneFails) {
+  subject_.covariance.picture = someCovariance();
+  subject_.requirement = {0.5, 0.5, {}, {}};
+  subject_.degrees_of_freedom = 2;
+  EXPECT_EQ(checkOf("covariance_normal").state, CheckState::kFailed);
+  EXPECT_EQ(checkOf("covariance_lateral").state, CheckState::kNotApplicable);
+  EXPECT_THAT(checkOf("covariance_lateral").sentence, HasSubstr("have 2 degrees of freedom"));
+  subject_.degrees_of_freedom = 6;
+  EXPECT_EQ(checkOf("covariance_lateral").state, CheckState::kPassed);
+}
+
 TEST_F(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
   // 0.5 mm along x at half a metre with f = 1000 px: a pixel, whatever the place's depth makes of
   // it.
