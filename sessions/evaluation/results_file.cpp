@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -144,14 +145,24 @@ std::int64_t steadyNow_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
+/// The methods of the file that ran with deliberately wrong meshes.
+std::set<std::string> negativeTests(SqlDatabase& database) {
+  std::set<std::string> names;
+  for (const MethodFacts& method : readRows(database, methodTable(), " FROM method"))
+    if (method.wrongMesh()) names.insert(method.method);
+  return names;
+}
+
 void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& take) {
   auto tags = readTags(database);
+  const std::set<std::string> negative = negativeTests(database);
   const std::vector<std::string> names = runTable().names();
   SqlStatement statement(
       database,
       "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
   while (statement.step()) {
     RunResult run = runTable().read(statement, database.file());
+    run.wrong_mesh = negative.contains(run.method);
     run.tags = std::move(tags[integerOf(statement.cell(static_cast<int>(names.size())))]);
     take(std::move(run));
   }
