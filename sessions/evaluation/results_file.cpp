@@ -131,16 +131,6 @@ ResultsFacts factsOf(SqlDatabase& database) {
   return facts;
 }
 
-std::unique_ptr<FileLock> locked(const std::filesystem::path& file) {
-  std::filesystem::path lock_file = file;
-  lock_file += ".lock";
-  auto lock = std::make_unique<FileLock>(lock_file);
-  if (!lock->held())
-    throw OutputError(file, "another run is writing it" +
-                                (lock->other() ? " (" + lock->other()->text() + ")" : ""));
-  return lock;
-}
-
 std::int64_t steadyNow_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
@@ -169,6 +159,16 @@ void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& tak
 }
 
 }  // namespace
+
+std::unique_ptr<FileLock> lockResults(const std::filesystem::path& file) {
+  std::filesystem::path lock_file = file;
+  lock_file += ".lock";
+  auto lock = std::make_unique<FileLock>(lock_file);
+  if (!lock->held())
+    throw OutputError(file, "another run is writing it" +
+                                (lock->other() ? " (" + lock->other()->text() + ")" : ""));
+  return lock;
+}
 
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset) {
   SqlTransaction transaction(database);
@@ -220,7 +220,7 @@ Results readResults(const std::filesystem::path& file) {
 }
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& file, const DatasetFacts& dataset)
-    : lock_(locked(file)), database_(file, SqlAccess::kWrite) {
+    : lock_(lockResults(file)), database_(file, SqlAccess::kWrite) {
   database_.execute("PRAGMA synchronous = FULL");
   if (integerOf(database_.value("SELECT count(*) FROM sqlite_master")) == 0) {
     makeResultsTables(database_, dataset);
