@@ -34,33 +34,40 @@ struct TablesArguments {
 
   void addTo(CLI::App& command) {
     addFile(command, "RESULTS", results, "Results of `whs evaluate`")->required();
-    addFile(command, "--against", against,
-            "Compares RESULTS (before) with these results (after), run by run");
+    auto* comparison = addFile(command, "--against", against,
+                               "Compares RESULTS (before) with these results (after), run by run");
     command.add_flag("--all", all, "With --against: also lists unchanged runs");
     command  // not addChoice: the help would show the empty default as []
         .add_option("--table", tables,
                     "Tables to print: errors, success, strata, tolerance, times (default: all)")
-        ->check(CLI::IsMember({"errors", "success", "strata", "tolerance", "times"}));
+        ->check(CLI::IsMember({"errors", "success", "strata", "tolerance", "times"}))
+        ->excludes(comparison);
     addOption(command, "--station", "S", filter.stations, "Only runs of these stations");
     addOption(command, "--tag", "T", filter.tags, "Only runs with one of these tags");
     addOption(command, "--method", "M", filter.methods, "Only runs of these methods");
-    command.add_flag("--paper", paper,
-                     "Adds the figures of Pham et al. 2025, with notes on the comparison");
+    command
+        .add_flag("--paper", paper,
+                  "Adds the figures of Pham et al. 2025, with notes on the comparison")
+        ->excludes(comparison);
     addFile(command, "--instructions", instructions,
-            "Adds a table of minutes at 200 MHz from counts of tests/benchmarks/instructions.sh");
+            "Adds a table of minutes at 200 MHz from counts of tests/benchmarks/instructions.sh")
+        ->excludes(comparison);
     addOption(command, "--demonstrate", "P", demonstrate_percent,
               "Adds a table: runs that demonstrate this success rate, percent, at 95 % "
               "confidence")
-        ->check(CLI::Range(1.0, 99.9999));
+        ->check(CLI::Range(1.0, 99.9999))
+        ->excludes(comparison);
     addChoice(command, "--format", format, {"text", "csv", "latex"}, "text, csv or latex")
         ->type_name("F");
     addFile(command, "--out", out, "Writes the tables to this file instead of the terminal");
     addOption(command, "--figures", "FOLDER", figures,
               "Draws the figures into this folder: error_strips, error_distribution, "
-              "success_tolerance, success_seed_error, time_accuracy");
+              "success_tolerance, success_seed_error, time_accuracy")
+        ->excludes(comparison);
     addOption(command, "--failures", "FOLDER", failures,
               "Draws each unsuccessful run into this folder, with the cause of failure; needs "
-              "the dataset's images");
+              "the dataset's images")
+        ->excludes(comparison);
     addChoice(command, "--figure-format", figure_formats, {"pdf", "svg", "png"},
               "Formats of the figures: pdf, svg, png")
         ->type_name("F");
@@ -180,7 +187,7 @@ int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& be
            provenanceText(before) + "after:\n" + provenanceText(after);
   }
   write(arguments, text);
-  return difference.worse > 0 ? kDifferent : kDone;
+  return difference.holds() ? kDone : kDifferent;
 }
 
 int makeTables(const TablesArguments& arguments) {
@@ -204,7 +211,9 @@ void addTables(CLI::App& app, int& exit_code) {
   addCommand(
       app, exit_code, "tables",
       "Writes tables and figures of results: errors, success, time per step, distributions. With "
-      "--against it compares two sets of results run by run; exit status 6: a run became worse",
+      "--against it compares two sets of results run by run; exit status 6: a run became worse or "
+      "is "
+      "missing, or there is none in both",
       makeTables);
 }
 

@@ -31,6 +31,8 @@ struct MethodFacts {
   std::string mesh_of;  ///< deliberately wrong meshes: another station's,
   std::string mirror;   ///< or mirrored across this axis; empty: correct meshes
   std::string note;     ///< display text, e.g. the network that was used
+
+  bool wrongMesh() const { return !mesh_of.empty() || !mirror.empty(); }
 };
 
 /// One process that ran cases into a results file.

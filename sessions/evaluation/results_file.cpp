@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -130,7 +131,36 @@ ResultsFacts factsOf(SqlDatabase& database) {
   return facts;
 }
 
-std::unique_ptr<FileLock> locked(const std::filesystem::path& file) {
+std::int64_t steadyNow_ns() {
+  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
+
+/// The methods of the file that ran with deliberately wrong meshes.
+std::set<std::string> negativeTests(SqlDatabase& database) {
+  std::set<std::string> names;
+  for (const MethodFacts& method : readRows(database, methodTable(), " FROM method"))
+    if (method.wrongMesh()) names.insert(method.method);
+  return names;
+}
+
+void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& take) {
+  auto tags = readTags(database);
+  const std::set<std::string> negative = negativeTests(database);
+  const std::vector<std::string> names = runTable().names();
+  SqlStatement statement(
+      database,
+      "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
+  while (statement.step()) {
+    RunResult run = runTable().read(statement, database.file());
+    run.wrong_mesh = negative.contains(run.method);
+    run.tags = std::move(tags[integerOf(statement.cell(static_cast<int>(names.size())))]);
+    take(std::move(run));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<FileLock> lockResults(const std::filesystem::path& file) {
   std::filesystem::path lock_file = file;
   lock_file += ".lock";
   auto lock = std::make_unique<FileLock>(lock_file);
@@ -139,25 +169,6 @@ std::unique_ptr<FileLock> locked(const std::filesystem::path& file) {
                                 (lock->other() ? " (" + lock->other()->text() + ")" : ""));
   return lock;
 }
-
-std::int64_t steadyNow_ns() {
-  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
-
-void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& take) {
-  auto tags = readTags(database);
-  const std::vector<std::string> names = runTable().names();
-  SqlStatement statement(
-      database,
-      "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
-  while (statement.step()) {
-    RunResult run = runTable().read(statement, database.file());
-    run.tags = std::move(tags[integerOf(statement.cell(static_cast<int>(names.size())))]);
-    take(std::move(run));
-  }
-}
-
-}  // namespace
 
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset) {
   SqlTransaction transaction(database);
@@ -209,7 +220,7 @@ Results readResults(const std::filesystem::path& file) {
 }
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& file, const DatasetFacts& dataset)
-    : lock_(locked(file)), database_(file, SqlAccess::kWrite) {
+    : lock_(lockResults(file)), database_(file, SqlAccess::kWrite) {
   database_.execute("PRAGMA synchronous = FULL");
   if (integerOf(database_.value("SELECT count(*) FROM sqlite_master")) == 0) {
     makeResultsTables(database_, dataset);

@@ -47,6 +47,10 @@ struct Results {
 };
 Results readResults(const std::filesystem::path& file);
 
+/// The right to write a results file, held as long as the lock lives. OutputError when another
+/// process writes the file.
+std::unique_ptr<FileLock> lockResults(const std::filesystem::path& file);
+
 /// Creates the tables of a new file, in a transaction.
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset);
 void addMethodFacts(SqlDatabase& database, const MethodFacts& method);
@@ -97,7 +101,8 @@ struct MergeCounts {
 /// one whose input was rejected. The file is written whole or not at all.
 ///
 /// InputError, naming both files, when they are of different datasets, versions or options, or a
-/// run has different results in them; OutputError when `out` cannot be written.
+/// run has different results in them; OutputError when `out` cannot be written or another process
+/// writes it.
 MergeCounts mergeResults(const std::filesystem::path& out,
                          const std::vector<std::filesystem::path>& inputs);
 

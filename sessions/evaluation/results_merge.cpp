@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -170,6 +171,7 @@ class Merge {
 
 MergeCounts mergeResults(const fs::path& out, const std::vector<fs::path>& inputs) {
   requireWritable(out, FileUse::kResults);
+  const std::unique_ptr<FileLock> lock = lockResults(out);  // from before `out` is read
   std::vector<fs::path> files;
   std::error_code error;
   if (fs::exists(out, error)) files.push_back(out);

@@ -76,6 +76,7 @@ void noteTrace(const LocalizationTrace& trace, RunResult& result) {
 }
 
 void judge(bool wrong_mesh, RunResult& result) {
+  result.wrong_mesh = wrong_mesh;
   if (wrong_mesh) {
     result.success = false;
     result.false_positive = result.completed;

@@ -87,6 +87,7 @@ struct RunResult {
   std::optional<bool> success;  ///< empty without truth or requirement
   bool false_positive = false;
   bool gross_false_positive = false;
+  bool wrong_mesh = false;  ///< deliberately not the case's own: a negative test
 
   Pose camera_from_station_seed;
   Pose camera_from_station;
@@ -116,6 +117,11 @@ struct RunResult {
   std::vector<RunStep> steps;  ///< of a run in this process; from a results file: readSteps
 
   bool inputFailed() const { return status == "input_error"; }
+  /// Error of a completed run on the case's own mesh; null otherwise: a pose found with another
+  /// mesh is wrong at any distance from the truth.
+  const PoseError* completedError() const {
+    return completed && !wrong_mesh && error ? &*error : nullptr;
+  }
   bool hasTag(const std::string& tag) const { return std::ranges::count(tags, tag) > 0; }
 };
 

@@ -86,11 +86,12 @@ OnboardRecord recordOfRun(const ReadRun& run) {
 /// Smaller is better.
 int rankByTruth(const RunSide& side) {
   if (!side.converged) return 1;
-  return side.error_share.value_or(0.0) <= 1.0 ? 0 : 2;
+  return !side.wrong_mesh && side.error_share.value_or(0.0) <= 1.0 ? 0 : 2;
 }
 
 std::string truthText(const RunSide& side) {
   if (!side.converged) return "failed";
+  if (side.wrong_mesh) return "accepted on a wrong mesh";
   return "error " + fixedText(100.0 * side.error_share.value_or(0.0), 0) + " % of the requirement";
 }
 
@@ -109,6 +110,7 @@ RunChange judgedByTruth(const RunDifference& difference) {
   const int before = rankByTruth(difference.before);
   const int after = rankByTruth(difference.after);
   if (before != after || before != 2) return changeOf(before, after);
+  if (!difference.before.error_share || !difference.after.error_share) return RunChange::kSame;
   const double nearer = *difference.before.error_share - *difference.after.error_share;
   if (std::abs(nearer) < kTelling) return RunChange::kSame;
   return nearer > 0.0 ? RunChange::kBetter : RunChange::kWorse;
@@ -217,7 +219,8 @@ std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& ca
 }
 
 void judgeChange(RunDifference& difference) {
-  const bool truth = difference.before.error_share || difference.after.error_share;
+  const bool truth = difference.before.error_share || difference.after.error_share ||
+                     difference.before.wrong_mesh || difference.after.wrong_mesh;
   const auto text = [truth](const RunSide& side) {
     return truth ? truthText(side) : checksText(side);
   };

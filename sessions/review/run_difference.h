@@ -24,6 +24,7 @@ struct RunSide {
   std::string time;    ///< UTC, when it ended
   std::string status;  ///< localizationStatusText()
   bool converged = false;
+  bool wrong_mesh = false;  ///< a negative test: a pose found with it is wrong
   int iterations = 0;
   std::int32_t inliers = 0;  ///< of the last matching iteration
   int checks_passed = 0;

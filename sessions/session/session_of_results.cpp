@@ -73,8 +73,8 @@ Session withOptionsOf(const Session& session, const ResultsFacts& facts,
 
 ListedResult listedResult(const RunResult& run) {
   ListedResult result{run.status, run.completed, std::nullopt};
-  if (run.completed && run.error && run.requirement)
-    result.error_share = requirementShare(*run.error, *run.requirement);
+  if (const PoseError* error = run.completedError(); error != nullptr && run.requirement)
+    result.error_share = requirementShare(*error, *run.requirement);
   return result;
 }
 

@@ -130,8 +130,8 @@ void drawPanel(PdfCanvas& canvas, const PdfBox& box, const StationRuns& row,
 ErrorStrip errorStrip(std::span<const RunResult* const> runs, double PoseError::*part) {
   ErrorStrip strip;
   for (const RunResult* run : runs) {
-    if (run->completed && run->error)
-      strip.completed.push_back((*run->error).*part);
+    if (const PoseError* error = run->completedError())
+      strip.completed.push_back(error->*part);
     else if (!run->completed && run->seed_error)
       strip.failed.push_back((*run->seed_error).*part);
   }

@@ -36,7 +36,7 @@ std::optional<double> percentWithinFigure(RunSpan members, const JudgedFigure& f
     if (!limit) continue;
     const std::optional<double> value = figure.error(*run->error);
     ++asked;
-    met += run->completed && value && std::abs(*value) <= *limit ? 1 : 0;
+    met += run->completedError() && value && std::abs(*value) <= *limit ? 1 : 0;
   }
   return percentOf(met, asked);
 }
@@ -44,8 +44,8 @@ std::optional<double> percentWithinFigure(RunSpan members, const JudgedFigure& f
 Statistics errorStatistics(RunSpan members, const ErrorColumn& column) {
   std::vector<double> values;
   for (const RunResult* run : members)
-    if (const auto value = run->completed && run->error ? column.of(*run->error) : std::nullopt)
-      values.push_back(*value);
+    if (const PoseError* error = run->completedError())
+      if (const auto value = column.of(*error)) values.push_back(*value);
   return statistics(values);
 }
 
@@ -55,8 +55,8 @@ bool endedAtLimit(const RunResult& run) {
 
 /// The last pose of a run that ended at the limit of iterations, judged as if it had completed.
 bool succeedsAtLimit(const RunResult& run) {
-  return endedAtLimit(run) && run.requirement && !run.steps.empty() && run.steps.back().error &&
-         meetsRequirement(*run.steps.back().error, *run.requirement);
+  return endedAtLimit(run) && !run.wrong_mesh && run.requirement && !run.steps.empty() &&
+         run.steps.back().error && meetsRequirement(*run.steps.back().error, *run.requirement);
 }
 
 void count(const RunResult& run, MethodFigures& figures) {
@@ -288,7 +288,8 @@ std::optional<double> percentWithin(std::span<const RunResult* const> runs, doub
   for (const RunResult* run : runs) {
     if (!run->success || !run->error || !run->requirement) continue;
     ++judged;
-    within += run->completed && meetsRequirement(*run->error, *run->requirement, factor) ? 1 : 0;
+    const PoseError* error = run->completedError();
+    within += error != nullptr && meetsRequirement(*error, *run->requirement, factor) ? 1 : 0;
   }
   return percentOf(within, judged);
 }

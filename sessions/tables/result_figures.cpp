@@ -111,8 +111,8 @@ PdfPlot errorPlot(const StationRuns& station, const ErrorAxis& axis, const Style
   for (const RunGroup& group : station.methods) {
     std::vector<double> values;
     for (const RunResult* run : group.runs)
-      if (run->completed && run->error)
-        values.push_back(std::max(kLow, std::abs((*run->error).*axis.part)));
+      if (const PoseError* error = run->completedError())
+        values.push_back(std::max(kLow, std::abs(error->*axis.part)));
     plot.series.push_back(
         staircase(styles.of(group.method), shareBelow(values, group.runs.size()), kLow, kHigh));
   }
@@ -256,8 +256,8 @@ CurvePoints successAgainstSeed(std::span<const RunResult* const> runs, SeedMeasu
 CurvePoints timeAgainstError(std::span<const RunResult* const> runs) {
   CurvePoints points;
   for (const RunResult* run : runs)
-    if (run->completed && run->error)
-      points.push_back({run->seconds.total(), run->error->lateral_mm});
+    if (const PoseError* error = run->completedError())
+      points.push_back({run->seconds.total(), error->lateral_mm});
   return points;
 }
 

@@ -66,9 +66,10 @@ RunSide sideOf(const RunResult& run) {
   side.converged = run.completed;
   side.iterations = run.iterations;
   side.inliers = run.inliers;
-  if (run.completed && run.error && run.requirement) {
-    side.error = run.error;
-    side.error_share = requirementShare(*run.error, *run.requirement);
+  side.wrong_mesh = run.wrong_mesh;
+  if (const PoseError* error = run.completedError(); error != nullptr && run.requirement) {
+    side.error = *error;
+    side.error_share = requirementShare(*error, *run.requirement);
   }
   return side;
 }
@@ -88,7 +89,8 @@ RunPairing paired(const RunResult& before, const RunResult& after) {
   RunDifference judged;
   judged.before = sideOf(before);
   judged.after = sideOf(after);
-  if (!judged.before.error_share && !judged.after.error_share) {
+  const bool judgeable = judged.before.error_share || judged.after.error_share || before.wrong_mesh;
+  if (!judgeable) {
     judgeByEnding(pair);
     return pair;
   }
@@ -110,8 +112,57 @@ void count(const RunPairing& pair, ResultsDifference& made) {
 }
 
 std::optional<double> shareCell(const RunResult& run) {
-  if (!run.completed || !run.error || !run.requirement) return std::nullopt;
-  return 100.0 * requirementShare(*run.error, *run.requirement);
+  const PoseError* error = run.completedError();
+  if (error == nullptr || !run.requirement) return std::nullopt;
+  return 100.0 * requirementShare(*error, *run.requirement);
+}
+
+std::set<std::string> datasetsOf(const ResultsSet& set) {
+  std::set<std::string> datasets;
+  for (const ResultsFacts& file : set.files) datasets.insert(file.dataset.dataset_sha256);
+  return datasets;
+}
+
+std::string meshText(const MethodFacts& facts) {
+  if (!facts.mesh_of.empty()) return "the wrong mesh of " + facts.mesh_of;
+  if (!facts.mirror.empty()) return "the wrong mesh mirrored across " + facts.mirror;
+  return "the right mesh";
+}
+
+/// The first file of a set, for messages.
+std::filesystem::path fileOf(const ResultsSet& set) {
+  return set.files.empty() ? std::filesystem::path() : set.files.front().file;
+}
+
+/// InputError unless runs of these methods start from equal meshes and seeds.
+void requireEqualTask(const ResultsSet& before, const std::string& before_method,
+                      const ResultsSet& after, const std::string& after_method) {
+  const auto earlier = before.methods.find(before_method);
+  const auto later = after.methods.find(after_method);
+  if (earlier == before.methods.end() || later == after.methods.end()) return;
+  const MethodFacts& a = earlier->second;
+  const MethodFacts& b = later->second;
+  if (std::tie(a.mesh_of, a.mirror) != std::tie(b.mesh_of, b.mirror))
+    throw InputError(fileOf(after), "its runs of " + after_method + " have " + meshText(b) +
+                                        ", those before have " + meshText(a) +
+                                        ": they cannot be compared");
+  const bool drawn =
+      std::ranges::any_of(before.runs, [](const RunResult& run) { return run.reseed > 0; });
+  if (drawn && a.reseed_scale != b.reseed_scale)
+    throw InputError(fileOf(after),
+                     "its further seeds are drawn at another distance than those "
+                     "before: they cannot be compared");
+}
+
+void requireComparable(const ResultsSet& before, const ResultsSet& after, bool by_method) {
+  if (datasetsOf(before) != datasetsOf(after))
+    throw InputError(fileOf(after), "its runs are of another dataset than those of " +
+                                        fileOf(before).string() + ": they cannot be compared");
+  const std::vector<std::string> names = before.methodNames();
+  const std::vector<std::string> others = after.methodNames();
+  if (names.empty() || others.empty()) return;
+  if (!by_method) return requireEqualTask(before, names.front(), after, others.front());
+  for (const std::string& name : names) requireEqualTask(before, name, after, name);
 }
 
 }  // namespace
@@ -168,12 +219,16 @@ ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
 
 ResultsDifference compareResults(const ResultsSet& before, const ResultsSet& after) {
   const bool by_method = before.methodNames().size() > 1 || after.methodNames().size() > 1;
+  requireComparable(before, after, by_method);
   using Key = std::tuple<std::string, std::int32_t, std::string>;
   const auto keyOf = [by_method](const RunResult& run) {
     return Key(run.case_id, run.reseed, by_method ? run.method : std::string());
   };
   std::map<Key, const RunResult*> others;
-  for (const RunResult& run : after.runs) others[keyOf(run)] = &run;
+  for (const RunResult& run : after.runs)
+    if (!others.emplace(keyOf(run), &run).second)
+      throw InputError(fileOf(after), "run of " + run.case_id,
+                       "the case is in several datasets: compare one dataset at a time");
   ResultsDifference made;
   for (const RunResult& run : before.runs) {
     const auto other = others.find(keyOf(run));

@@ -60,12 +60,19 @@ struct ResultsDifference {
   std::int64_t worse = 0;
   std::int64_t same = 0;
   std::int64_t equal = 0;  ///< of these, bit for bit
+
+  /// Whether runs were compared, none became worse and none is missing after.
+  bool holds() const { return !pairs.empty() && worse == 0 && only_before == 0; }
 };
 
 /// Pairs runs by case, seed and method; by case and seed alone where each set has one method. With
 /// truth and requirement known, a correct pose is better than a failed run, which is better than a
-/// wrong pose; of two wrong poses the nearer one is better, if nearer by a tenth of the
-/// requirement. Otherwise a run that completed is better than one that did not.
+/// wrong pose (a false positive); of two wrong poses the nearer one is better, if nearer by a tenth
+/// of the requirement. A pose found with a deliberately wrong mesh is wrong at any distance.
+/// Otherwise a run that completed is better than one that did not.
+///
+/// InputError when the sets are of different datasets, of different deliberately wrong meshes or
+/// of seeds drawn at different distances, or one case is in several datasets.
 ResultsDifference compareResults(const ResultsSet& before, const ResultsSet& after);
 
 /// The pairs that changed or, with `all`, all of them.

@@ -215,6 +215,9 @@ TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
   EXPECT_THAT(tables({"--against", file("bad.sqlite")}, 6),
               HasSubstr("2 runs in both: 0 better, 2 worse"));
   EXPECT_THAT(tables({"--against", file("good.sqlite")}), HasSubstr("2 the same (2 bit for bit)"));
+  EXPECT_THAT(tables({"--against", file("good.sqlite"), "--station", "nosuch"}, 6),
+              HasSubstr("0 runs in both"));
+  tables({"--against", file("good.sqlite"), "--figures", file("figures")}, 2);
 }
 
 TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {

@@ -370,6 +370,14 @@ TEST_F(MergeResults, RefusesOtherOptionsDatasetsAndFiles) {
   EXPECT_THAT(mergeRefusal({"none"}), HasSubstr("none: there is no such file"));
 }
 
+TEST_F(MergeResults, FileThatIsBeingWritten_IsRefusedAndKept) {
+  write({sampleRun("bc-1", 0, 0)}, "a");
+  write({sampleRun("os-2", 1, 0)}, "out");
+  const ResultsWriter writer(folder_ / "out", sampleDataset());
+  EXPECT_THAT(mergeRefusal({"a"}), HasSubstr("out: another run is writing it"));
+  EXPECT_EQ(merged(), "os-2/0 ");
+}
+
 TEST_F(MergeResults, PrefersARunToARefusedInput) {
   RunResult bad = sampleRun("bc-1", 0, 0);
   bad.status = "input_error";

@@ -77,6 +77,21 @@ TEST(MethodFigures, CountGrossFalsePositivesBeyondThreeTimesTheRequirement) {
   EXPECT_EQ(figures.gross_false_positives, 1);
 }
 
+TEST(MethodFigures, PosesFoundWithAWrongMesh_CountAsNoSuccessAnywhere) {
+  std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.01), madeRun("bc-2", "whs", false)};
+  runs[1].status = "iteration_limit";
+  runs[1].steps.resize(1);
+  runs[1].steps[0].error = PoseError{};
+  for (RunResult& run : runs) judge(true, run);
+  const MethodFigures figures = methodFigures(runs).back();
+  EXPECT_EQ(figures.gross_false_positives, 1);
+  EXPECT_DOUBLE_EQ(*figures.success.percent(), 0.0);
+  EXPECT_DOUBLE_EQ(*figures.success_with_limit.percent(), 0.0);
+  EXPECT_DOUBLE_EQ(*figures.within_percent[0], 0.0);
+  EXPECT_EQ(figures.error[0].count, 0);
+  EXPECT_DOUBLE_EQ(*percentWithin(test::pointersTo(runs), 20.0), 0.0);
+}
+
 TEST(MethodFigures, StateBoundsOfClopperAndPearson) {
   std::vector<RunResult> runs;
   for (int i = 0; i < 59; ++i) runs.push_back(madeRun("bc-" + std::to_string(i % 7), "whs"));

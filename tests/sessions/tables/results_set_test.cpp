@@ -103,6 +103,63 @@ TEST(CompareResults, PairsByMethodWhereThereAreSeveral) {
   EXPECT_EQ(compareResults(both, ncc).only_before, 1);
 }
 
+/// A set of one method, as if read from a file of this dataset.
+ResultsSet filedSet(std::vector<RunResult> runs, const MethodFacts& method,
+                    const std::string& dataset = "d") {
+  ResultsSet set = setOf(std::move(runs));
+  set.files.push_back({dataset + ".sqlite", {"/data/dataset.json", dataset, 2, "1"}, {method}, {}});
+  set.methods["whs"] = method;
+  return set;
+}
+
+TEST(CompareResults, OtherDatasetsMeshesOrSeeds_AreRefused) {
+  const std::vector<RunResult> runs = {madeRun("bc-1", "whs")};
+  const ResultsSet before = filedSet(runs, {});
+  EXPECT_TRUE(compareResults(before, before).holds());
+  const auto refusal = [&before](const ResultsSet& after) {
+    return test::TemporaryFolder().message([&] { (void)compareResults(before, after); });
+  };
+  EXPECT_THAT(refusal(filedSet(runs, {}, "e")), HasSubstr("are of another dataset"));
+  MethodFacts mirrored;
+  mirrored.mirror = "y";
+  EXPECT_THAT(refusal(filedSet(runs, mirrored)),
+              HasSubstr("the wrong mesh mirrored across y, those before have the right mesh"));
+  MethodFacts others_mesh;
+  others_mesh.mesh_of = "os";
+  EXPECT_THAT(refusal(filedSet(runs, others_mesh)), HasSubstr("the wrong mesh of os"));
+  ResultsSet drawn = filedSet(runs, {});
+  drawn.runs[0].reseed = 1;
+  ResultsSet farther = drawn;
+  farther.methods["whs"].reseed_scale = 2.0;
+  EXPECT_THAT(test::TemporaryFolder().message([&] { (void)compareResults(drawn, farther); }),
+              HasSubstr("drawn at another distance"));
+  EXPECT_THAT(refusal(filedSet({runs[0], runs[0]}, {})), HasSubstr("one dataset at a time"));
+}
+
+TEST(CompareResults, PoseFoundWithAWrongMesh_IsWorseThanNoneAndNeverNear) {
+  RunResult refused = madeRun("bc-1", "whs", false);
+  judge(true, refused);
+  RunResult accepted = madeRun("bc-1", "whs", true, 0.05);
+  accepted.digest = "other";
+  judge(true, accepted);
+  const ResultsDifference made = compareResults(setOf({refused}), setOf({accepted}));
+  EXPECT_EQ(made.worse, 1);
+  EXPECT_EQ(made.pairs[0].why, "failed before, now accepted on a wrong mesh");
+  EXPECT_EQ(compareResults(setOf({accepted}), setOf({refused})).better, 1);
+  RunResult farther = madeRun("bc-1", "whs", true, 9.0);
+  farther.digest = "third";
+  judge(true, farther);
+  EXPECT_EQ(compareResults(setOf({accepted}), setOf({farther})).same, 1);
+}
+
+TEST(CompareResults, HoldOnlyWhenRunsWereComparedAndNoneIsMissing) {
+  const RunResult first = madeRun("bc-1", "whs");
+  const RunResult second = madeRun("bc-2", "whs");
+  EXPECT_TRUE(compareResults(setOf({first}), setOf({first, second})).holds());
+  EXPECT_FALSE(compareResults(setOf({first, second}), setOf({first})).holds());
+  EXPECT_FALSE(compareResults(setOf({}), setOf({first})).holds());
+}
+
 TEST(CompareResults, GoesByCompletionWithoutTruth) {
   ResultsSet before = setOf({madeRun("bc-1", "whs")});
   before.runs[0].error.reset();
