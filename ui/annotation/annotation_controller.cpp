@@ -67,8 +67,10 @@ AnnotationController::AnnotationController(Document& document, ViewState& state,
   pause_.setInterval(kPause_ms);
   connect(&pause_, &QTimer::timeout, this, &AnnotationController::finishMove);
   connect(&runner_, &TaskRunner::failed, this, &AnnotationController::told);
-  connectEach(document_, this, &AnnotationController::showDocument, &Document::opened,
-              &Document::changed);
+  connect(&document_, &Document::aboutToChange, this, &AnnotationController::finishMove);
+  connect(&document_, &Document::opened, this, &AnnotationController::documentOpened);
+  connect(&document_, &Document::changed, this, &AnnotationController::showDocument);
+  connect(&state_, &ViewState::aboutToSetCase, this, &AnnotationController::leaveCase);
   state_.onChange(ViewChange::kCase, this, &AnnotationController::showDocument);
   showDocument();
 }
@@ -92,6 +94,25 @@ std::optional<Pose> AnnotationController::solvedPose() const {
   return answer_.solution ? answer_.solution->camera_from_station() : std::nullopt;
 }
 
+/// A move under way is of another session, even where the case has the same name.
+void AnnotationController::documentOpened() {
+  moving_ = false;
+  pause_.stop();
+  showDocument();
+}
+
+void AnnotationController::leaveCase(const std::string& next_id) {
+  if (next_id != case_id_) endMove();
+}
+
+/// Nudges are finished steps; a drag whose button is still down is none.
+void AnnotationController::endMove() {
+  if (pause_.isActive())
+    finishMove();
+  else
+    cancelMove();
+}
+
 /// The document's annotations are shown, unless a gesture is about to replace them.
 void AnnotationController::showDocument() {
   const std::string id = shownCaseId(document_, state_);
@@ -100,6 +121,7 @@ void AnnotationController::showDocument() {
     case_id_ = id;
     moving_ = false;
     pause_.stop();
+    setMode(PlaceMode::kOff);
     selected_.clear();
     answer_ = {};
     asked_.reset();
@@ -175,7 +197,7 @@ void AnnotationController::take(const AnnotationAnswer& answer) {
 
 void AnnotationController::setMode(PlaceMode mode) {
   if (mode == mode_) return;
-  finishMove();
+  endMove();
   mode_ = mode;
   Q_EMIT modeChanged();
 }

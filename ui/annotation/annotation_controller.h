@@ -115,6 +115,8 @@ class AnnotationController : public QObject {
   /// of the document. Returns false for locked annotations, which do not move.
   bool dragInImage(const std::string& id, const Eigen::Vector2d& pixel, int end = 0);
   void finishMove();
+  /// Shows the document's annotations again instead of an unfinished move.
+  void cancelMove();
   /// Moves the selected annotation; nudges in quick succession are one step of Undo.
   bool nudge(const Eigen::Vector2d& by_px, int end = 0);
   /// Replaces the annotation of id `replaced` (edits of the table; the id may change); `text` is
@@ -161,6 +163,9 @@ class AnnotationController : public QObject {
   void told(const QString& sentence);
 
  private:
+  void documentOpened();
+  void leaveCase(const std::string& next_id);
+  void endMove();
   void showDocument();
   void showLandmarks();
   void askIfChanged(bool anyway);

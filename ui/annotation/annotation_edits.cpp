@@ -105,6 +105,11 @@ void AnnotationController::finishMove() {
   if (!commit(annotations_, tr("Move %1").arg(fromText(selected_)))) showDocument();
 }
 
+void AnnotationController::cancelMove() {
+  pause_.stop();
+  if (std::exchange(moving_, false)) showDocument();
+}
+
 bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
   const auto from = selectedPixel(end);
   if (!from || !dragInImage(selected_, *from + by_px, end)) return false;

@@ -498,7 +498,9 @@ bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
     const auto& key = *static_cast<QKeyEvent*>(event);
     const bool plain = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier;
-    if (plain && !key.text().isEmpty() && key.text().front().isLetterOrNumber()) event->accept();
+    const bool to_cell = key.modifiers() == Qt::ControlModifier && !arrowOf(key.key()).isNull();
+    if (to_cell || (plain && !key.text().isEmpty() && key.text().front().isLetterOrNumber()))
+      event->accept();
   }
   return QWidget::eventFilter(watched, event);
 }

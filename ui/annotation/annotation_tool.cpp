@@ -27,11 +27,7 @@ constexpr double kLargeStep_px = 1.0;
 
 AnnotationTool::AnnotationTool(ImageView& view, AnnotationController& controller, ViewState& state,
                                StationSnapper& snapper, QObject* parent)
-    : QObject(parent), view_(view), controller_(controller), state_(state), snapper_(snapper) {
-  view_.installEventFilter(this);
-  connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
-    if (owner != this) controller_.setMode(PlaceMode::kOff);
-  });
+    : CanvasTool(view, parent), controller_(controller), state_(state), snapper_(snapper) {
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationTool::showMode);
   connect(&controller_, &AnnotationController::annotationsChanged, this,
           [this] { view_.update(); });
@@ -58,16 +54,16 @@ std::optional<Pose> AnnotationTool::stationPose() const {
 }
 
 void AnnotationTool::showMode() {
-  view_.setCursor(active() ? Qt::CrossCursor : Qt::ArrowCursor);
-  press_.reset();
-  line_start_.reset();
+  cancelGesture();
   turn_ = 0;
   if (active()) {
-    view_.claimTool(this);
+    claim();
     updateAim();
   } else {
+    release();
     clearAim();
   }
+  view_.setCursor(active() || view_.toolActive() ? Qt::CrossCursor : Qt::ArrowCursor);
 }
 
 AimRules AnnotationTool::rules() const {
@@ -175,8 +171,8 @@ std::string AnnotationTool::stationOnlyUnder(const QPointF& place) const {
 }
 
 bool AnnotationTool::eventFilter(QObject* watched, QEvent* event) {
-  if (!active() || view_.toolActive() || !state_.currentCase())
-    return QObject::eventFilter(watched, event);
+  if (CanvasTool::eventFilter(watched, event)) return true;
+  if (!active() || view_.toolActive() || !state_.currentCase()) return false;
   switch (event->type()) {
     case QEvent::MouseButtonPress:
     case QEvent::MouseButtonDblClick:
@@ -206,8 +202,11 @@ bool AnnotationTool::eventFilter(QObject* watched, QEvent* event) {
 
 bool AnnotationTool::mouseEvent(QEvent::Type type, const QMouseEvent& event) {
   const QPointF place = pointerPlace(event, view_);
-  if (type == QEvent::MouseMove) return move(place, event.modifiers());
-  if (type == QEvent::MouseButtonRelease) return event.button() == Qt::LeftButton && release();
+  if (type == QEvent::MouseMove) {
+    if (press_ && (event.buttons() & Qt::LeftButton) == 0) loseButton();
+    return move(place, event.modifiers());
+  }
+  if (type == QEvent::MouseButtonRelease) return event.button() == Qt::LeftButton && finishPress();
   return press(event, place);
 }
 
@@ -288,7 +287,7 @@ void AnnotationTool::dragTo(const QPointF& pixel) {
   Q_EMIT aimChanged();
 }
 
-bool AnnotationTool::release() {
+bool AnnotationTool::finishPress() {
   const std::optional<QPointF> pressed = std::exchange(press_, std::nullopt);
   if (const auto drag = std::exchange(drag_, std::nullopt)) {
     if (drag->moved) controller_.finishMove();
@@ -361,16 +360,12 @@ void AnnotationTool::paint(QPainter& painter, const QRectF& taken) const {
 bool AnnotationTool::isOwnKey(const QKeyEvent& event) {
   const int key = event.key();
   if ((event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) return key == Qt::Key_Alt;
-  return !arrowOf(key).isNull() || key == Qt::Key_Delete || key == Qt::Key_Escape ||
-         key == Qt::Key_Tab;
+  return !arrowOf(key).isNull() || key == Qt::Key_Delete || key == Qt::Key_Tab;
 }
 
 bool AnnotationTool::keyPress(const QKeyEvent& event) {
   if (!isOwnKey(event)) return false;
   switch (event.key()) {
-    case Qt::Key_Escape:
-      escape();
-      return true;
     case Qt::Key_Tab:
       ++turn_;
       updateAim();
@@ -398,16 +393,18 @@ bool AnnotationTool::nudge(const QKeyEvent& event) {
   return true;
 }
 
+/// A line whose first point is clicked is a gesture, too.
+void AnnotationTool::cancelGesture() {
+  press_.reset();
+  line_start_.reset();
+  panning_ = false;
+  if (std::exchange(drag_, std::nullopt)) controller_.cancelMove();
+}
+
 void AnnotationTool::escape() {
   turn_ = 0;
-  if (const auto drag = std::exchange(drag_, std::nullopt)) {
-    press_.reset();
-    if (drag->moved) {
-      controller_.dragInImage(drag->id, drag->pixel, drag->end);
-      controller_.finishMove();
-    }
-  } else if (line_start_) {
-    line_start_.reset();
+  if (drag_ || line_start_) {
+    cancelGesture();
   } else if (!controller_.selected().empty()) {
     controller_.select({});
   } else {

@@ -5,18 +5,17 @@
 #include <string>
 
 #include <QEvent>
-#include <QObject>
 #include <QPointF>
 
 #include "ui/annotation/annotation_aim.h"
 #include "ui/annotation/annotation_controller.h"
+#include "ui/views/canvas_tool.h"
 
 class QKeyEvent;
 class QMouseEvent;
 
 namespace boresight::ui {
 
-class ImageView;
 class StationSnapper;
 
 /// Annotates with the pointer on the image. A click annotates an image position, Ctrl+click the
@@ -26,7 +25,7 @@ class StationSnapper;
 /// snapping. A press on an annotation chooses it, and drags it; a drag elsewhere pans. Arrows move
 /// the chosen annotation by 0.1 px, with Shift by 1 px; Delete removes it; Escape drops the
 /// unfinished gesture, then the selection, then the mode.
-class AnnotationTool : public QObject {
+class AnnotationTool : public CanvasTool {
   Q_OBJECT
 
  public:
@@ -45,6 +44,9 @@ class AnnotationTool : public QObject {
 
   /// Texts are kept outside `taken` (widget).
   void paint(QPainter& painter, const QRectF& taken) const;
+  void cancelGesture() override;
+  void leave() override { controller_.setMode(PlaceMode::kOff); }
+  void escape() override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:
@@ -65,13 +67,12 @@ class AnnotationTool : public QObject {
   bool mouseEvent(QEvent::Type type, const QMouseEvent& event);
   bool press(const QMouseEvent& event, const QPointF& place);
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
-  bool release();
+  bool finishPress();
   void dragTo(const QPointF& pixel);
   /// Keys that shortcuts of the window must not take while the operator annotates.
   static bool isOwnKey(const QKeyEvent& event);
   bool keyPress(const QKeyEvent& event);
   bool nudge(const QKeyEvent& event);
-  void escape();
   void showMode();
 
   bool lacksImageSide() const;
@@ -86,7 +87,6 @@ class AnnotationTool : public QObject {
   void clearAim();
   AimRules rules() const;
 
-  ImageView& view_;
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;

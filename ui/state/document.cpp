@@ -66,6 +66,7 @@ void Document::become(sessions::SessionDocument&& document, bool untitled) {
 }
 
 bool Document::open(const std::filesystem::path& file) {
+  Q_EMIT aboutToChange();
   return attempt(&Document::opened, [&] {
     const std::filesystem::path parent = std::filesystem::absolute(file).parent_path();
     become(sessions::SessionDocument::open(file), parent == untitledFolder());
@@ -73,11 +74,13 @@ bool Document::open(const std::filesystem::path& file) {
 }
 
 bool Document::create(const std::filesystem::path& file, const sessions::Session& session) {
+  Q_EMIT aboutToChange();
   return attempt(&Document::opened,
                  [&] { become(sessions::SessionDocument::create(file, session), false); });
 }
 
 bool Document::createUntitled(const sessions::Session& session) {
+  Q_EMIT aboutToChange();
   return attempt(&Document::opened, [&] {
     const std::filesystem::path folder = untitledFolder();
     std::filesystem::create_directories(folder);
@@ -89,10 +92,12 @@ bool Document::createUntitled(const sessions::Session& session) {
 }
 
 bool Document::save() {
+  Q_EMIT aboutToChange();
   return document_ && attempt(&Document::changed, [&] { document_->save(); });
 }
 
 bool Document::saveAs(const std::filesystem::path& file) {
+  Q_EMIT aboutToChange();
   const std::filesystem::path former = this->file();
   if (!document_ || !attempt(nullptr, [&] { document_->saveAs(file); })) return false;
   if (std::exchange(untitled_, false) && former != this->file()) removeWithCompanions(former);
@@ -102,6 +107,7 @@ bool Document::saveAs(const std::filesystem::path& file) {
 }
 
 void Document::close() {
+  Q_EMIT aboutToChange();
   history_.reset();
   document_.reset();
   untitled_ = false;
@@ -160,10 +166,12 @@ bool Document::note(const sessions::Session& after, const QString& text) {
 }
 
 bool Document::undo() {
+  Q_EMIT aboutToChange();
   return canUndo() && attempt(&Document::changed, [&] { history_->undo(); });
 }
 
 bool Document::redo() {
+  Q_EMIT aboutToChange();
   return canRedo() && attempt(&Document::changed, [&] { history_->redo(); });
 }
 
@@ -184,6 +192,7 @@ QStringList Document::editTexts() const {
 }
 
 bool Document::goToEdit(std::size_t done) {
+  Q_EMIT aboutToChange();
   return history_ && done != history_->done() && attempt(&Document::changed, [&] {
            while (history_->done() > done) history_->undo();
            while (history_->done() < done && history_->canRedo()) history_->redo();

@@ -75,6 +75,8 @@ class Document : public QObject {
   static void removeUntitled(const std::filesystem::path& file);
 
  Q_SIGNALS:
+  /// It is about to be saved, left, or changed by its history: gestures under way become edits now.
+  void aboutToChange();
   void opened();   ///< another document is open, or none
   void changed();  ///< its value, or whether it is saved, has changed
   void failed(const QString& message);

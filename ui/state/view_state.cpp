@@ -65,6 +65,7 @@ std::optional<Pose> ViewState::knownPose() const {
 }
 
 void ViewState::setCase(CasePtr loaded_case) {
+  Q_EMIT aboutToSetCase(loaded_case ? loaded_case->source.id : std::string());
   case_ = std::move(loaded_case);
   snapshot_.reset();
   cursor_ = {};
@@ -77,6 +78,7 @@ void ViewState::setCase(CasePtr loaded_case) {
 }
 
 void ViewState::replaceCase(CasePtr loaded_case) {
+  Q_EMIT aboutToSetCase(loaded_case ? loaded_case->source.id : std::string());
   case_ = std::move(loaded_case);
   const ViewChanges pose = nudged_ ? ViewChange::kNudgedPose : ViewChanges();
   Q_EMIT changed(ViewChange::kCase | ViewChange::kCursor | pose);

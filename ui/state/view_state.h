@@ -113,6 +113,9 @@ class ViewState : public QObject {
   }
 
  Q_SIGNALS:
+  /// The case, or its inputs, are about to be replaced by this case's (empty: none): gestures on it
+  /// end now.
+  void aboutToSetCase(const std::string& next_id);
   /// Emitted once for each change, with all parts concerned.
   void changed(boresight::ui::ViewChanges what);
 

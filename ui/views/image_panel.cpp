@@ -176,7 +176,10 @@ void ImagePanel::showCase() {
   const ViewState::CasePtr before = std::exchange(shown_case_, state_.currentCase());
   const ViewState::CasePtr& after = shown_case_;
   const bool same_case = before && after && before->source.id == after->source.id;
-  if (!same_case) view_->fit();
+  if (!same_case) {
+    view_->cancelGesture();
+    view_->fit();
+  }
   // An edit of the mask leaves the image and the renders as they are.
   const bool same_scene = same_case && before->source.camera == after->source.camera &&
                           sessions::sameScene(before->source, after->source);

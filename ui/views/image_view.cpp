@@ -116,9 +116,15 @@ void ImageView::setToolActive(bool active, double radius_px) {
   update();
 }
 
-void ImageView::claimTool(const QObject* owner) {
-  Q_EMIT toolClaimed(owner);
-  setFocus();
+void ImageView::setTool(CanvasTool* tool) {
+  const QPointer<CanvasTool> before = std::exchange(tool_, tool);
+  if (before && tool && before != tool) before->leave();
+  if (tool) setFocus();
+}
+
+void ImageView::cancelGesture() {
+  tool_pressed_ = dragging_ = swiping_ = false;
+  if (tool_) tool_->cancelGesture();
 }
 
 void ImageView::setToolPreviews(std::vector<ToolPreview> previews) {
@@ -464,6 +470,10 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF place = pointerPlace(*event, *this);
   const QPointF delta = place - last_;
   last_ = place;
+  if ((event->buttons() & Qt::LeftButton) == 0) {  // the release went elsewhere
+    swiping_ = false;
+    if (std::exchange(tool_pressed_, false) && tool_) tool_->loseButton();
+  }
   if (swiping_) {
     setSwipe(std::clamp(place.x() / width(), 0.0, 1.0));
     return;

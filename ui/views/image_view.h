@@ -11,6 +11,7 @@
 #include <QPointer>
 #include <QWidget>
 
+#include "ui/views/canvas_tool.h"
 #include "ui/views/display_image.h"
 #include "ui/views/layer.h"
 #include "ui/views/overlay_painters.h"
@@ -90,8 +91,6 @@ class ImageView : public QWidget {
   void transformChanged();
   void layersChanged();  ///< contents or styles
   void contextMenuRequested(const QPointF& pixel, const QPoint& global);
-  /// A tool was started: all tools but the owner must end.
-  void toolClaimed(const QObject* owner);
   /// While a tool is set, the left button is the tool's (the middle one pans); a double click is
   /// two presses.
   void toolPressed(const QPointF& pixel);
@@ -102,8 +101,12 @@ class ImageView : public QWidget {
   /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
-  /// Ends the other tools, and takes the keyboard focus for this one.
-  void claimTool(const QObject* owner);
+  /// Ends the tool before, and gives the keyboard focus to this one; nullptr: none is active.
+  void setTool(CanvasTool* tool);
+  /// nullptr while no tool is active.
+  CanvasTool* tool() const { return tool_; }
+  /// Drops the gesture of the active tool, if any, and a drag of the view.
+  void cancelGesture();
   void setToolPreviews(std::vector<ToolPreview> previews);
   /// Adds painting over everything else, in the widget's coordinates, as long as its owner lives.
   void addOverlay(QObject* owner, std::function<void(QPainter&)> overlay) {
@@ -182,6 +185,7 @@ class ImageView : public QWidget {
   QPointF press_;
   QPointF last_;
   bool dragging_ = false;
+  QPointer<CanvasTool> tool_;
   bool tool_active_ = false;
   bool tool_pressed_ = false;
   double tool_radius_px_ = 0.0;

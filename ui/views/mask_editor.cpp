@@ -37,14 +37,10 @@ ToolPreview previewOf(const MaskStroke& stroke, const ImageView& view) {
 
 }  // namespace
 
-MaskEditor::MaskEditor(ImageView& view, QObject* parent) : QObject(parent), view_(view) {
-  view_.installEventFilter(this);
-  connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
-    if (owner != this) setTool(MaskTool::kNone);
-  });
+MaskEditor::MaskEditor(ImageView& view, QObject* parent) : CanvasTool(view, parent) {
   connect(&view_, &ImageView::toolPressed, this, &MaskEditor::press);
   connect(&view_, &ImageView::toolMoved, this, &MaskEditor::move);
-  connect(&view_, &ImageView::toolReleased, this, &MaskEditor::release);
+  connect(&view_, &ImageView::toolReleased, this, &MaskEditor::finishBrush);
   connect(&view_, &ImageView::cursorMoved, this, [this](const QPointF& pixel) {
     if (tool_ != MaskTool::kPolygon || points_.empty()) return;
     pointer_ = pixel;
@@ -56,7 +52,7 @@ void MaskEditor::setTool(MaskTool tool) {
   if (tool == tool_) return;
   tool_ = tool;
   points_.clear();
-  if (tool != MaskTool::kNone) view_.claimTool(this);
+  tool != MaskTool::kNone ? claim() : release();
   view_.setToolActive(tool != MaskTool::kNone, tool == MaskTool::kBrush ? radius_px_ : 0.0);
   showPreview();
   Q_EMIT changed();
@@ -107,7 +103,7 @@ void MaskEditor::move(const QPointF& pixel) {
   showPreview();
 }
 
-void MaskEditor::release() {
+void MaskEditor::finishBrush() {
   if (tool_ == MaskTool::kBrush && !points_.empty()) finish();
 }
 
@@ -157,26 +153,27 @@ bool MaskEditor::pressKey(int key) {
       if (!points_.empty()) points_.pop_back();
       showPreview();
       return true;
-    case Qt::Key_Escape:
-      if (points_.empty()) {
-        setTool(MaskTool::kNone);
-      } else {
-        points_.clear();
-        showPreview();
-      }
-      return true;
     default:
       return false;
   }
 }
 
+void MaskEditor::cancelGesture() {
+  points_.clear();
+  showPreview();
+}
+
+void MaskEditor::loseButton() {
+  if (tool_ == MaskTool::kBrush) cancelGesture();
+}
+
+void MaskEditor::escape() { points_.empty() ? leave() : cancelGesture(); }
+
 bool MaskEditor::eventFilter(QObject* watched, QEvent* event) {
-  if (tool_ == MaskTool::kNone) return QObject::eventFilter(watched, event);
-  if (event->type() == QEvent::KeyPress) return pressKey(static_cast<QKeyEvent*>(event)->key());
-  if (event->type() != QEvent::ShortcutOverride) return QObject::eventFilter(watched, event);
-  const bool escape = static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
-  if (escape) event->accept();  // while a run could be stopped by the same key
-  return escape;
+  if (tool_ != MaskTool::kNone && event->type() == QEvent::KeyPress &&
+      pressKey(static_cast<QKeyEvent*>(event)->key()))
+    return true;
+  return CanvasTool::eventFilter(watched, event);
 }
 
 }  // namespace boresight::ui

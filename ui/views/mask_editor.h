@@ -4,14 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include <QObject>
 #include <QPointF>
 
 #include "sessions/session/ignore_strokes.h"
+#include "ui/views/canvas_tool.h"
 
 namespace boresight::ui {
-
-class ImageView;
 
 enum class MaskTool : std::uint8_t { kNone, kBrush, kPolygon };
 
@@ -19,7 +17,7 @@ enum class MaskTool : std::uint8_t { kNone, kBrush, kPolygon };
 /// its corners. The stroke is reported when the gesture ends; until the mask includes it, it is
 /// drawn as a preview. Enter or a click on the first or the last corner closes a polygon, Backspace
 /// drops its last corner, Escape drops the polygon, and without one the tool.
-class MaskEditor : public QObject {
+class MaskEditor : public CanvasTool {
   Q_OBJECT
 
  public:
@@ -40,6 +38,11 @@ class MaskEditor : public QObject {
   /// Sets the strokes whose mask is still being computed.
   void setPending(const sessions::MaskStrokes& strokes);
 
+  void cancelGesture() override;
+  /// Corners of a polygon stay: no button holds them.
+  void loseButton() override;
+  void leave() override { setTool(MaskTool::kNone); }
+  void escape() override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:
@@ -50,13 +53,12 @@ class MaskEditor : public QObject {
  private:
   void press(const QPointF& pixel);
   void move(const QPointF& pixel);
-  void release();
+  void finishBrush();
   bool pressKey(int key);
   bool isNear(const QPointF& pixel, const QPointF& corner) const;
   void finish();
   void showPreview();
 
-  ImageView& view_;
   MaskTool tool_ = MaskTool::kNone;
   bool erase_ = false;
   double radius_px_ = 12.0;

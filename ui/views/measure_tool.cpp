@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/views/measure_tool.h"
 
-#include <QKeyEvent>
 #include <QPainter>
 
 #include "ui/state/view_state.h"
@@ -19,15 +18,11 @@ constexpr LineToken kRuler = {0xFFFFFF, 1.6, 0, 0, false, 0x000000, 2.0};
 }  // namespace
 
 MeasureTool::MeasureTool(ImageView& view, ViewState& state, QObject* parent)
-    : QObject(parent), view_(view), state_(state) {
-  view_.installEventFilter(this);
+    : CanvasTool(view, parent), state_(state) {
   view_.addOverlay(this, [this](QPainter& painter) { paint(painter); });
-  connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
-    if (owner != this) setActive(false);
-  });
   connect(&view_, &ImageView::toolPressed, this, &MeasureTool::press);
   connect(&view_, &ImageView::toolMoved, this, &MeasureTool::moveTo);
-  state_.onChange(ViewChange::kCase, this, &MeasureTool::clear);
+  state_.onChange(ViewChange::kCase, this, &MeasureTool::cancelGesture);
   state_.onChange(ViewChange::kCursor | ViewChange::kNudgedPose, this, [this] {
     if (from_) moveTo(to_);  // on the surface of another pose
   });
@@ -36,13 +31,13 @@ MeasureTool::MeasureTool(ImageView& view, ViewState& state, QObject* parent)
 void MeasureTool::setActive(bool active) {
   if (active == active_) return;
   active_ = active;
-  if (active) view_.claimTool(this);
+  active ? claim() : release();
   view_.setToolActive(active);
-  clear();
+  cancelGesture();
   Q_EMIT activeChanged(active);
 }
 
-void MeasureTool::clear() {
+void MeasureTool::cancelGesture() {
   from_.reset();
   view_.update();
 }
@@ -68,19 +63,6 @@ QString MeasureTool::text() const {
   const QString pixels = tr("%1 px").arg(measured_.image_px, 0, 'f', 1);
   if (!measured_.surface_m) return pixels;
   return tr("%1, %2 mm").arg(pixels).arg(1e3 * *measured_.surface_m, 0, 'f', 2);
-}
-
-bool MeasureTool::eventFilter(QObject* watched, QEvent* event) {
-  const bool override = event->type() == QEvent::ShortcutOverride;
-  if (active_ && (override || event->type() == QEvent::KeyPress) &&
-      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
-    if (override)
-      event->accept();  // while a run could be stopped by the same key
-    else
-      from_ ? clear() : setActive(false);
-    return true;
-  }
-  return QObject::eventFilter(watched, event);
 }
 
 void MeasureTool::paint(QPainter& painter) const {

@@ -3,22 +3,21 @@
 
 #include <optional>
 
-#include <QObject>
 #include <QPointF>
 #include <QString>
 
 #include "sessions/trace/surface_point.h"
+#include "ui/views/canvas_tool.h"
 
 class QPainter;
 
 namespace boresight::ui {
 
-class ImageView;
 class ViewState;
 
 /// Measures on the image: from a press to the release, in pixels, and in millimetres on the
 /// station's surface if both ends are on it in the shown pose.
-class MeasureTool : public QObject {
+class MeasureTool : public CanvasTool {
   Q_OBJECT
 
  public:
@@ -29,7 +28,9 @@ class MeasureTool : public QObject {
   /// "123.4 px, 45.67 mm", or empty.
   QString text() const;
 
-  bool eventFilter(QObject* watched, QEvent* event) override;
+  void cancelGesture() override;
+  void leave() override { setActive(false); }
+  void escape() override { from_ ? cancelGesture() : leave(); }
 
  Q_SIGNALS:
   void activeChanged(bool active);
@@ -37,10 +38,8 @@ class MeasureTool : public QObject {
  private:
   void press(const QPointF& pixel);
   void moveTo(const QPointF& pixel);
-  void clear();
   void paint(QPainter& painter) const;
 
-  ImageView& view_;
   ViewState& state_;
   bool active_ = false;
   std::optional<QPointF> from_;  ///< px

@@ -525,17 +525,17 @@ void CaseController::runWithWiderSearch() {
 }
 
 void CaseController::keepNudgedPose() {
-  const sessions::SessionCase* session_case = sessionCase();
-  const ViewState::CasePtr& shown = state_.currentCase();
-  // In a session that cannot be edited the operator may nudge to look.
-  if (!session_case || !shown || shown->source.id != session_case->id ||
-      !document_.readOnlyReason().isEmpty())
-    return;
-  editCase(
-      [this](sessions::SessionCase& changed) {
-        changed.camera_from_station_working = state_.nudgedPose();
-      },
-      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1"));
+  const sessions::SessionCase* shown = shownCase(document_, state_);
+  // In a session that cannot be edited the operator may nudge to look. Without a chosen case
+  // another session is open.
+  if (!shown || case_id_.isEmpty() || !document_.readOnlyReason().isEmpty()) return;
+  const auto nudge = [this](sessions::SessionCase& changed) {
+    changed.camera_from_station_working = state_.nudgedPose();
+  };
+  const QString text =
+      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1");
+  const std::string id = shown->id;  // another case may be chosen already
+  document_.edit(sessions::withChanged(document_.session(), id, nudge), text.arg(fromText(id)));
 }
 
 void CaseController::setOptions(const QString& profile, const LocalizerOptions& options) {

@@ -193,7 +193,7 @@ bool MainWindow::openSession(const std::filesystem::path& file) { return files_-
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  parts_.annotation.finishMove();
+  Q_EMIT parts_.document.aboutToChange();
   parts_.cases.finishStoring();
   if (!files_->mayLeave()) return event->ignore();
   parts_.cases.stop();

@@ -430,6 +430,7 @@ bool SessionFiles::mayLoseRuns() {
 }
 
 bool SessionFiles::mayLeave() {
+  Q_EMIT parts_.document.aboutToChange();  // or a gesture under way would be lost
   if (!mayLoseRuns()) return false;
   Document& document = parts_.document;
   const bool untitled = document.isUntitled();

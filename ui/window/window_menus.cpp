@@ -26,7 +26,9 @@
 #include "ui/state/view_state.h"
 #include "ui/style/icons.h"
 #include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
 #include "ui/views/mask_editor.h"
+#include "ui/views/measure_tool.h"
 #include "ui/widgets/command_palette.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
@@ -81,8 +83,34 @@ WindowMenus::WindowMenus(QMainWindow& window, WindowParts& parts, const WindowDo
   connectQueue();
   fillLayersMenu();
   connectHelp();
+  window_.installEventFilter(this);
+  connect(&workspaces_, &Workspaces::changed, this, &WindowMenus::endTools);
   for (QAction* each : window_.findChildren<QAction*>())
     if (!each->statusTip().isEmpty()) setTip(*each, each->statusTip());
+}
+
+/// Tools that edit end with their workspace; annotating lives in Annotate.
+void WindowMenus::endTools(Workspace now) {
+  if (std::exchange(workspace_, now) == now) return;
+  CanvasTool* tool = docks_.image.view().tool();
+  const bool annotates = parts_.annotation.mode() != PlaceMode::kOff;
+  if (tool && tool != &docks_.image.measure() && !(annotates && now == Workspace::kAnnotate))
+    tool->leave();
+}
+
+/// Escape that no panel takes ends the tool, wherever the focus is.
+bool WindowMenus::eventFilter(QObject* watched, QEvent* event) {
+  const bool override = event->type() == QEvent::ShortcutOverride;
+  if (!(override || event->type() == QEvent::KeyPress) ||
+      static_cast<QKeyEvent*>(event)->key() != Qt::Key_Escape)
+    return QObject::eventFilter(watched, event);
+  CanvasTool* tool = docks_.image.view().tool();
+  if (!tool) return false;
+  if (override)
+    event->accept();  // before it stops jobs
+  else
+    tool->escape();
+  return true;
 }
 
 void WindowMenus::connectFile() {
@@ -114,6 +142,8 @@ void WindowMenus::connectEdit() {
     CommandPalette palette(*ui_.menuBar, &window_);
     palette.exec();
   });
+  connect(&parts_.document, &Document::aboutToChange, &docks_.poses.nudgeController(),
+          &NudgeController::finishGesture);
   connect(&parts_.document, &Document::changed, this, [this] {
     // An undo is no longer the last change.
     if (window_.statusBar()->currentMessage() == shown_change_) window_.statusBar()->clearMessage();
@@ -133,12 +163,14 @@ void WindowMenus::connectEdit() {
 
 void WindowMenus::connectMode(QAction* action, PlaceMode mode) {
   AnnotationController& annotation = parts_.annotation;
-  on(action, this, [this, mode](bool checked) {
+  on(action, this, [this, action, mode, &annotation](bool checked) {
     parts_.annotation.setMode(checked ? mode : PlaceMode::kOff);
-    if (checked) workspaces_.reveal(QStringLiteral("annotation"));
+    action->setChecked(annotation.mode() == mode);
   });
-  connect(&annotation, &AnnotationController::modeChanged, action,
-          [action, mode, &annotation] { action->setChecked(annotation.mode() == mode); });
+  connect(&annotation, &AnnotationController::modeChanged, action, [=, this, &annotation] {
+    action->setChecked(annotation.mode() == mode);
+    if (action->isChecked()) workspaces_.reveal(QStringLiteral("annotation"));
+  });
 }
 
 void WindowMenus::connectAnnotate() {
@@ -347,8 +379,7 @@ void WindowMenus::showAbout() {
 }
 
 void WindowMenus::undo() {
-  docks_.poses.nudgeController().finishGesture();  // what is under way is undone first
-  parts_.annotation.finishMove();
+  Q_EMIT parts_.document.aboutToChange();  // what is under way is undone first
   stepHistory(&Document::undo, tr("Undone: %1").arg(parts_.document.undoText()));
 }
 

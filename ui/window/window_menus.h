@@ -9,6 +9,7 @@
 #include "sessions/session/session.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/window/window_parts.h"
+#include "ui/workspaces/workspace.h"
 
 namespace boresight::ui {
 
@@ -32,6 +33,9 @@ class WindowMenus : public QObject {
   void update();
   PoseExport& poses() { return *poses_; }
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  Q_SIGNALS:
   /// The verdict bar's action was requested by its key.
   void verdictStepRequested();
@@ -42,6 +46,7 @@ class WindowMenus : public QObject {
   void connectEdit();
   void connectAnnotate();
   void connectMode(QAction* action, PlaceMode mode);
+  void endTools(Workspace now);
   void connectImageAnnotation();
   void connectRun();
   void connectOnboard();
@@ -71,6 +76,7 @@ class WindowMenus : public QObject {
   PoseExport* poses_ = nullptr;
   SequenceDialog* sequence_ = nullptr;  ///< nullptr until it is requested
   QList<QAction*> annotation_edits_;
+  Workspace workspace_ = Workspace::kStart;
   QString run_tip_;       ///< of "Run"
   QString together_tip_;  ///< of "Run with the other views"
   QString shown_change_;  ///< text in the status bar on the last undo or redo

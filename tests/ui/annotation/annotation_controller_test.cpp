@@ -163,6 +163,21 @@ TEST_F(AnnotationControllerTest, Annotations_AreStoredPerCaseAndReloaded) {
   EXPECT_EQ(killed.recovery()->session.annotations, document_.session().annotations);
 }
 
+TEST_F(AnnotationControllerTest, MoveUnderWay_OnAnotherCase_ANudgeIsKeptADragIsDropped) {
+  const std::string id = source().id;
+  const auto other = document_.session().cases.back()->id;
+  const auto stored = [&] { return *document_.session().annotations.at(id)->points.at(0).pixel; };
+  controller_.select(controller_.placeInImage({12.0, 34.0}));
+  ASSERT_TRUE(controller_.nudge({0.5, 0.0}));
+  open(other);
+  EXPECT_EQ(stored(), Vector2d(12.5, 34.0));
+  open(id);
+  ASSERT_TRUE(controller_.dragInImage(annotations().points.at(0).id, {50.0, 60.0}));
+  open(other);
+  EXPECT_EQ(stored(), Vector2d(12.5, 34.0)) << "its button is still down";
+  EXPECT_TRUE(annotations().empty());
+}
+
 TEST(StationSnapper, PutsCornersFirst_AndKeepsItsMeshUntilAnotherCaseIsShown) {
   ViewState state;
   StationSnapper snapper(state);

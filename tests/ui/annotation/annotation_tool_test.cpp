@@ -139,6 +139,34 @@ TEST_F(AnnotationToolTest, Drag_MovesWithoutAJump_EscapeRestores_LockedAnnotatio
   EXPECT_EQ(annotations().points.size(), 1u);
 }
 
+TEST_F(AnnotationToolTest, DragWhoseModeEnds_IsDropped_TheNextDragPans) {
+  const Vector2d before = markMiddle();
+  for (const PlaceMode meanwhile : {PlaceMode::kOff, PlaceMode::kLine}) {
+    send(QEvent::MouseButtonPress, before);
+    send(QEvent::MouseMove, before + Vector2d(10.0, 0.0));
+    controller_.setMode(meanwhile);
+    EXPECT_EQ(place("p1"), before);
+    send(QEvent::MouseMove, before + Vector2d(20.0, 0.0));
+    if (meanwhile == PlaceMode::kLine) send(QEvent::MouseButtonRelease, before);
+    controller_.setMode(PlaceMode::kPoint);
+    drag(kMiddle + Vector2d(20.0, 20.0), kMiddle + Vector2d(30.0, 20.0));
+    EXPECT_EQ(place("p1"), before);
+    EXPECT_EQ(document_.undoText(), QStringLiteral("Place p1 on the image"));
+  }
+}
+
+/// A message box took the release of the button.
+TEST_F(AnnotationToolTest, MoveWithoutAButton_EndsTheDragAndMovesNothing) {
+  const Vector2d before = markMiddle();
+  send(QEvent::MouseButtonPress, before);
+  send(QEvent::MouseMove, before + Vector2d(10.0, 0.0));
+  ASSERT_GT(place("p1").x(), before.x() + 9.0);
+  moveTo(before + Vector2d(20.0, 7.0));
+  EXPECT_EQ(place("p1"), before);
+  moveTo(before + Vector2d(30.0, 14.0));
+  EXPECT_EQ(place("p1"), before);
+}
+
 TEST_F(AnnotationToolTest, Arrows_MoveTheSelectedAnnotationByATenthOrAWholePixel) {
   const Vector2d before = markMiddle();
   for (const Qt::Key key : {Qt::Key_Right, Qt::Key_Right, Qt::Key_Down})

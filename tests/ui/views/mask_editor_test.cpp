@@ -73,6 +73,33 @@ TEST_F(MaskEditorTest, ADragWithTheBrushIsOneStrokeThatShowsUntilTheMaskContains
   EXPECT_EQ(at(40, 32), gray);
 }
 
+/// A message box took the release of the button.
+TEST_F(MaskEditorTest, MoveWithoutAButton_EndsTheBrushStroke_CornersOfAPolygonStay) {
+  editor_.setTool(MaskTool::kBrush);
+  send(QEvent::MouseButtonPress, 20, 30);
+  send(QEvent::MouseMove, 40, 30);
+  test::moveMouse(view_, place(60, 30));
+  send(QEvent::MouseButtonRelease, 60, 30);
+  EXPECT_TRUE(strokes_.empty());
+  editor_.setTool(MaskTool::kPolygon);
+  for (const auto& [x, y] : {std::pair(10, 10), std::pair(60, 10), std::pair(60, 50)}) {
+    send(QEvent::MouseButtonPress, x, y);
+    test::moveMouse(view_, place(x + 5, y + 5));
+  }
+  press(Qt::Key_Return);
+  ASSERT_EQ(strokes_.size(), 1u);
+  EXPECT_EQ(strokes_[0].points.size(), 3u);
+  editor_.setTool(MaskTool::kNone);
+  editor_.setTool(MaskTool::kPolygon);
+  click(10, 10);
+  click(60, 10);
+  view_.cancelGesture();
+  click(60, 50);
+  press(Qt::Key_Return);
+  EXPECT_EQ(strokes_.size(), 1u) << "the corners before are dropped";
+  EXPECT_EQ(editor_.tool(), MaskTool::kPolygon);
+}
+
 TEST_F(MaskEditorTest, ADoubleClickWithTheBrushMakesTwoDabs) {
   editor_.setTool(MaskTool::kBrush);
   editor_.setErase(true);

@@ -5,12 +5,16 @@
 
 #include <cmath>
 
+#include "sessions/session/ignore_strokes.h"
+#include "tests/ui/pointer.h"
+#include "ui/annotation/annotation_controller.h"
 #include "ui/panels/annotate/levels_histogram.h"
 #include "ui/panels/run/nudge_gizmo.h"
 #include "ui/views/compare_view.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/views/mask_editor.h"
 #include "ui/views/measure_tool.h"
 #include "ui/widgets/command_palette.h"
 #include "ui/workspaces/workspaces.h"
@@ -173,6 +177,160 @@ TEST_F(CanvasToolsTest, OneToolWorksAtATime) {
   EXPECT_FALSE(action("placePoints").isChecked());
   QTest::keyClick(&window_, Qt::Key_N);
   EXPECT_TRUE(action("nudgeSeed").isChecked());
+}
+
+/// Tools, and gestures under way, on a session with annotations.
+class GesturesTest : public CanvasToolsTest {
+ protected:
+  void SetUp() override {
+    CanvasToolsTest::SetUp();
+    sessions::Annotations annotations;
+    for (int i = 0; i < 4; ++i) {
+      sessions::PointPair point;
+      point.id = "p" + std::to_string(i + 1);
+      point.pixel = Eigen::Vector2d(100 + 40 * i, 120);
+      annotations.points.push_back(point);
+    }
+    const sessions::Session& session = window_.document().session();
+    ASSERT_TRUE(window_.document().edit(
+        sessions::withAnnotations(session, session.cases[0]->id, annotations),
+        QStringLiteral("Annotate")));
+    window_.workspaces().show(Workspace::kAnnotate);
+    ASSERT_TRUE(rests());
+  }
+  AnnotationController& annotation() { return window_.annotation(); }
+  std::size_t pointsOf(const std::string& id) {
+    const auto& all = window_.document().session().annotations;
+    return all.contains(id) ? all.at(id)->points.size() + all.at(id)->lines.size() : 0;
+  }
+  const std::string& idOf(std::size_t index) {
+    return window_.document().session().cases[index]->id;
+  }
+  bool showCase(std::size_t index) {
+    window_.cases().chooseCase(QString::fromStdString(idOf(index)));
+    return wait(
+        [&] { return window_.state().currentCase()->source.id == idOf(index) && resting(); });
+  }
+  void clickPixel(const QPointF& pixel) {
+    const QPointF at = view().transform().toWidget(pixel);
+    test::sendMouse(view(), QEvent::MouseButtonPress, at);
+    test::sendMouse(view(), QEvent::MouseButtonRelease, at);
+  }
+};
+
+TEST_F(GesturesTest, Annotating_EndsOutsideAnnotate) {
+  for (const Workspace next : {Workspace::kRun, Workspace::kDiagnose, Workspace::kReview}) {
+    window_.workspaces().show(Workspace::kAnnotate);
+    action("placePoints").trigger();
+    ASSERT_EQ(annotation().mode(), PlaceMode::kPoint);
+    window_.workspaces().show(next);
+    EXPECT_EQ(annotation().mode(), PlaceMode::kOff);
+    EXPECT_FALSE(action("placePoints").isChecked());
+    clickPixel({220.0, 180.0});
+    clickPixel({260.0, 200.0});
+    EXPECT_EQ(pointsOf(idOf(0)), 4u);
+  }
+  QTest::keyClick(&window_, Qt::Key_F3);
+  EXPECT_EQ(annotation().mode(), PlaceMode::kLine);
+  EXPECT_EQ(window_.workspaces().current(), Workspace::kAnnotate) << "the key leads there";
+}
+
+TEST_F(GesturesTest, Annotating_EndsWithItsCase) {
+  action("placePoints").trigger();
+  ASSERT_TRUE(showCase(1));
+  EXPECT_EQ(annotation().mode(), PlaceMode::kOff);
+  EXPECT_FALSE(action("placePoints").isChecked());
+  clickPixel({220.0, 180.0});
+  EXPECT_EQ(pointsOf(idOf(1)), 0u);
+}
+
+TEST_F(GesturesTest, EscapeEndsTheTool_WhereverTheFocusIs) {
+  action("placePoints").trigger();
+  find<QListWidget>("history").setFocus();
+  QTest::keyClick(&window_, Qt::Key_Escape);
+  EXPECT_EQ(annotation().mode(), PlaceMode::kOff);
+}
+
+TEST_F(GesturesTest, NudgeUnderWay_IsStoredInItsCaseBeforeAnotherIsShown) {
+  annotation().select("p1");
+  const Eigen::Vector2d before = *annotation().annotations().points[0].pixel;
+  ASSERT_TRUE(annotation().nudge({0.5, 0.0}));
+  ASSERT_TRUE(showCase(1));
+  const sessions::Annotations& stored = *window_.document().session().annotations.at(idOf(0));
+  EXPECT_NEAR(stored.points[0].pixel->x(), before.x() + 0.5, 1e-9);
+  EXPECT_EQ(pointsOf(idOf(1)), 0u);
+}
+
+TEST_F(GesturesTest, NudgeUnderWay_IsAnEditBeforeTheHistoryMoves) {
+  annotation().remove("p3");
+  annotation().select("p1");
+  const std::size_t edits = window_.document().editsDone();
+  ASSERT_TRUE(annotation().nudge({0.1, 0.0}));
+  ASSERT_TRUE(window_.document().goToEdit(edits - 1));
+  EXPECT_EQ(pointsOf(idOf(0)), 4u);
+  EXPECT_EQ(annotation().annotations().points.size(), 4u);
+  QTest::qWait(1000);  // longer than the pause that ends a nudge
+  EXPECT_EQ(pointsOf(idOf(0)), 4u) << "the removed point does not go again";
+  EXPECT_TRUE(window_.document().canRedo());
+}
+
+TEST_F(GesturesTest, HalfAPolygon_IsNotContinuedOnAnotherCase) {
+  window_.findChild<MaskEditor*>()->setTool(MaskTool::kPolygon);
+  clickPixel({50.0, 50.0});
+  clickPixel({150.0, 50.0});
+  ASSERT_TRUE(showCase(1));
+  clickPixel({150.0, 150.0});
+  QTest::keyClick(&view(), Qt::Key_Return);
+  EXPECT_TRUE(window_.document().session().findCase(idOf(1))->ignore_strokes.empty());
+}
+
+TEST_F(GesturesTest, CtrlArrowsInTheTable_MoveThroughItsCells) {
+  auto& table = find<QTableView>("annotations");
+  table.setFocus();
+  annotation().select("p1");
+  const int row = table.currentIndex().row();
+  QTest::keyClick(&table, Qt::Key_Down, Qt::ControlModifier);
+  EXPECT_EQ(window_.cases().caseId().toStdString(), idOf(0));
+  EXPECT_EQ(table.currentIndex().row(), row + 1);
+  const int column = table.currentIndex().column();
+  QTest::keyClick(&table, Qt::Key_Right, Qt::ControlModifier);
+  EXPECT_EQ(table.currentIndex().column(), column + 1);
+}
+
+TEST_F(GesturesTest, PageKeysWithCtrl_ShowTheNextCase_ArrowsInAFieldDoNot) {
+  QTest::keyClick(&window_, Qt::Key_Down, Qt::ControlModifier);
+  EXPECT_EQ(window_.cases().caseId().toStdString(), idOf(0));
+  QTest::keyClick(&window_, Qt::Key_PageDown, Qt::ControlModifier);
+  EXPECT_EQ(window_.cases().caseId().toStdString(), idOf(1));
+}
+
+TEST_F(GesturesTest, GizmoDrag_EndsWhereTheButtonIsNoLongerDown) {
+  const Pose seed = edited().camera_from_station_seed;
+  const QPointF from = beginNudging();
+  test::sendMouse(view(), QEvent::MouseButtonPress, from);
+  test::sendMouse(view(), QEvent::MouseMove, from + QPointF(20.0, 0.0));
+  ASSERT_TRUE(window_.state().nudgedPose());
+  // A message box took the release.
+  test::moveMouse(view(), from + QPointF(60.0, 40.0));
+  EXPECT_FALSE(window_.state().nudgedPose());
+  test::moveMouse(view(), from + QPointF(80.0, 40.0));
+  EXPECT_FALSE(window_.state().nudgedPose());
+  EXPECT_EQ(edited().camera_from_station_seed, seed);
+}
+
+TEST_F(GesturesTest, CaseWithoutASeed_IsNotNudgedFromTheCamerasOrigin) {
+  sessions::SessionCase seedless = edited();
+  seedless.has_seed = false;
+  seedless.camera_from_station_seed = Pose();
+  ASSERT_TRUE(window_.document().edit(sessions::withCase(window_.document().session(), seedless),
+                                      QStringLiteral("Drop the seed")));
+  ASSERT_TRUE(wait([&] { return !window_.state().currentCase()->source.has_seed && resting(); }));
+  view().setFocus();
+  QTest::keyClick(&view(), Qt::Key_N);
+  for (const Qt::Key key : {Qt::Key_PageUp, Qt::Key_Right, Qt::Key_Return})
+    QTest::keyClick(&view(), key);
+  EXPECT_FALSE(edited().has_seed);
+  EXPECT_FALSE(window_.state().nudgedPose());
 }
 
 TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {

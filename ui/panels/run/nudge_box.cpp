@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/run/nudge_box.h"
 
+#include <utility>
+
 #include <QtWidgets>
 
 #include "core/base/math.h"
@@ -60,9 +62,11 @@ NudgeController::NudgeController(ViewState& state) : state_(state) {
   pause_.setSingleShot(true);
   pause_.setInterval(kPause_ms);
   connect(&pause_, &QTimer::timeout, this, &NudgeController::finishGesture);
+  connect(&state_, &ViewState::aboutToSetCase, this, &NudgeController::finishGesture);
   state_.onChange(ViewChange::kCase, this, &NudgeController::caseChanged);
   state_.onChange(ViewChange::kNudgedPose, this, &NudgeController::stateChanged);
-  state_.onChange(ViewChange::kCursor, this, &NudgeController::changed);
+  state_.onChange(ViewChange::kCursor | ViewChange::kAnnotatedPose, this,
+                  &NudgeController::changed);
   caseChanged();
 }
 
@@ -98,8 +102,9 @@ void NudgeController::setPivot(NudgePivot pivot) {
 
 /// The pose that the views would show without nudging.
 Pose NudgeController::estimate() const {
-  if (const auto estimate = poseOf(state_, PoseRole::kEstimate)) return *estimate;
-  return poseOf(state_, PoseRole::kSeed).value_or(Pose());
+  for (const PoseRole role : {PoseRole::kEstimate, PoseRole::kSeed, PoseRole::kAnnotated})
+    if (const auto pose = poseOf(state_, role)) return *pose;
+  return Pose();
 }
 
 Vector6d NudgeController::offset() const {
@@ -110,12 +115,16 @@ Vector6d NudgeController::offset() const {
 void NudgeController::moveTo(const Pose& camera_from_station) {
   if (!state_.currentCase() || !camera_from_station.isFinite()) return;
   if (!base_) base_ = estimate();
-  if (!before_) before_ = state_.shownPose();
+  if (!before_) {
+    before_ = state_.shownPose();
+    nudged_before_ = state_.nudgedPose();
+  }
   pause_.start();
   state_.setNudgedPose(camera_from_station);
 }
 
 void NudgeController::setOffset(int axis, double value) {
+  if (!state_.knownPose()) return;
   Vector6d next = offset();
   next[axis] = value;
   moveTo(nudged(base(), next, frame_));
@@ -156,6 +165,11 @@ void NudgeController::finishGesture() {
   if (!(before == after)) Q_EMIT gestureFinished(before, after);
 }
 
+void NudgeController::cancelGesture() {
+  pause_.stop();
+  if (std::exchange(before_, std::nullopt)) state_.setNudgedPose(nudged_before_);
+}
+
 bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
   const QEvent::Type type = event->type();
   if (type == QEvent::FocusOut) finishGesture();
@@ -164,7 +178,7 @@ bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
   if (!is_key || !state_.currentCase()) return QObject::eventFilter(watched, event);
   const auto& key = static_cast<const QKeyEvent&>(*event);
   const Eigen::Vector3d direction = directionOf(key.key());
-  if (direction.isZero()) return QObject::eventFilter(watched, event);
+  if (direction.isZero() || !state_.knownPose()) return QObject::eventFilter(watched, event);
   if (type == QEvent::ShortcutOverride) {
     event->accept();
     return false;
@@ -231,16 +245,17 @@ void NudgeBox::takeStep() {
 
 void NudgeBox::showOffset() {
   const Vector6d offset = controller_.offset();
+  const bool has_start = state_.knownPose().has_value();
   for (int axis = 0; axis < 6; ++axis) {
     QDoubleSpinBox* box = values_[static_cast<std::size_t>(axis)];
     const QSignalBlocker blocker(box);
     box->setValue(offset[axis] * shownUnit(axis));
-    box->setEnabled(state_.currentCase() != nullptr);
+    box->setEnabled(has_start);
   }
   const bool nudged = state_.nudgedPose().has_value();
   for (QPushButton* button : {ui_.useAsSeed, ui_.backToEstimate, ui_.dropNudged})
     button->setEnabled(nudged);
-  ui_.nudgePad->setEnabled(state_.currentCase() != nullptr);
+  ui_.nudgePad->setEnabled(has_start);
   ui_.nudgePad->setText(
       ui_.nudgePad->hasFocus()
           ? tr("<b>Keys nudge.</b> Arrows, Page Up, Page Down: move; with Ctrl: turn. Shift: "

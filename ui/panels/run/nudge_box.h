@@ -77,7 +77,8 @@ class NudgeController : public QObject {
   /// while nothing is nudged.
   Vector6d offset() const;
 
-  /// Sets one value of the offset from the base; the others stay.
+  /// Sets one value of the offset from the base; the others stay. Without a pose that the views
+  /// know nothing is nudged.
   void setOffset(int axis, double value);
   /// Part of the gesture under way.
   void moveTo(const Pose& camera_from_station);
@@ -92,6 +93,8 @@ class NudgeController : public QObject {
 
   /// Ends the gesture under way, if any.
   void finishGesture();
+  /// Restores the pose before the gesture under way, if any.
+  void cancelGesture();
 
   /// Consumes the keys that nudge.
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -112,8 +115,9 @@ class NudgeController : public QObject {
   ViewState& state_;
   NudgeFrame frame_;
   NudgeStep step_;
-  std::optional<Pose> base_;    ///< while something is nudged
-  std::optional<Pose> before_;  ///< of the gesture under way
+  std::optional<Pose> base_;           ///< while something is nudged
+  std::optional<Pose> before_;         ///< shown before the gesture under way
+  std::optional<Pose> nudged_before_;  ///< nudged before it
   QTimer pause_;
 };
 

@@ -26,6 +26,7 @@ constexpr double kReach = 9.0;
 constexpr double kArrow = 22.0;
 constexpr double kWheelFactor = 1.01;    ///< of the distance, per notch
 constexpr double kHandleFactor = 1.002;  ///< per pixel that the handle is dragged
+constexpr double kNotesLeft = 56.0;      ///< clear of the strip of tools
 constexpr double kNotesTop = 44.0;       ///< below the canvas' title
 constexpr LineToken kGizmoLine = {0xE69F00, 2.4, 0, 0, true, 0x000000, 2.0};
 
@@ -45,8 +46,7 @@ QString signedText(double value) {
 }  // namespace
 
 NudgeGizmo::NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state, QObject* parent)
-    : QObject(parent),
-      view_(view),
+    : CanvasTool(view, parent),
       nudge_(nudge),
       state_(state),
       action_(new QAction(overlayIcon(Icon::kMove), tr("Nudge seed"), this)) {
@@ -55,39 +55,42 @@ NudgeGizmo::NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state
   action_->setShortcut(Qt::Key_N);
   action_->setToolTip(tr("Move and turn the seed on the image (N)"));
   connect(action_, &QAction::toggled, this, &NudgeGizmo::setActive);
-  view_.installEventFilter(this);
   view_.addOverlay(this, [this](QPainter& painter) { paint(painter); });
-  connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
-    if (owner != this) setActive(false);
-  });
   connect(&view_, &ImageView::toolPressed, this, &NudgeGizmo::press);
   connect(&view_, &ImageView::toolMoved, this, &NudgeGizmo::dragTo);
-  connect(&view_, &ImageView::toolReleased, this, &NudgeGizmo::release);
-  state_.onChange(ViewChange::kCase | ViewChange::kNudgedPose, this, [this] { view_.update(); });
+  connect(&view_, &ImageView::toolReleased, this, &NudgeGizmo::finishDrag);
+  state_.onChange(ViewChange::kCase | ViewChange::kNudgedPose | ViewChange::kAnnotatedPose, this,
+                  [this] { view_.update(); });
 }
 
 void NudgeGizmo::setActive(bool active) {
   if (active == active_) return;
   active_ = active;
-  if (active)
-    view_.claimTool(this);
-  else
+  if (active) {
+    claim();
+  } else {
+    release();
     nudge_.finishGesture();
+  }
   dragged_ = Part::kNone;
   view_.setToolActive(active);
   action_->setChecked(active);
 }
 
-Pose NudgeGizmo::pose() const {
-  if (state_.nudgedPose()) return *state_.nudgedPose();
-  return state_.currentCase() ? state_.currentCase()->source.camera_from_station_seed : Pose();
+std::optional<Pose> NudgeGizmo::pose() const {
+  if (state_.nudgedPose()) return state_.nudgedPose();
+  const auto& loaded_case = state_.currentCase();
+  if (loaded_case && loaded_case->source.has_seed)
+    return loaded_case->source.camera_from_station_seed;
+  return state_.annotatedPose();
 }
 
 std::optional<QPointF> NudgeGizmo::centre() const {
   const auto& loaded_case = state_.currentCase();
+  const std::optional<Pose> shown = pose();
   Eigen::Vector2d pixel;
-  if (!loaded_case ||
-      !project(loaded_case->source.camera, pose() * nudge_.frame().centre_in_station_m, pixel))
+  if (!loaded_case || !shown ||
+      !project(loaded_case->source.camera, *shown * nudge_.frame().centre_in_station_m, pixel))
     return std::nullopt;
   return view_.transform().toWidget(pointOf(pixel));
 }
@@ -140,7 +143,18 @@ void NudgeGizmo::dragTo(const QPointF& pixel) {
   }
 }
 
-void NudgeGizmo::release() {
+void NudgeGizmo::cancelGesture() {
+  if (std::exchange(dragged_, Part::kNone) != Part::kNone) nudge_.cancelGesture();
+}
+
+void NudgeGizmo::escape() {
+  if (dragged_ != Part::kNone)
+    cancelGesture();
+  else
+    state_.nudgedPose() ? nudge_.drop() : leave();
+}
+
+void NudgeGizmo::finishDrag() {
   if (active_ && dragged_ != Part::kNone) nudge_.finishGesture();
   dragged_ = Part::kNone;
 }
@@ -149,22 +163,28 @@ void NudgeGizmo::release() {
 /// the pointer.
 void NudgeGizmo::movePixels(const QPointF& by_px) {
   const Camera& camera = state_.currentCase()->source.camera;
-  const double depth_m = (pose() * nudge_.frame().centre_in_station_m).z();
+  const double depth_m = middleInCamera_m().z();
   displace(Eigen::Vector3d::Zero(),
            {by_px.x() * depth_m / camera.fx, by_px.y() * depth_m / camera.fy, 0.0});
 }
 
 /// Along the ray to the station's middle, whose place in the image stays.
 void NudgeGizmo::scaleDistance(double factor) {
-  displace(Eigen::Vector3d::Zero(), (factor - 1.0) * (pose() * nudge_.frame().centre_in_station_m));
+  displace(Eigen::Vector3d::Zero(), (factor - 1.0) * middleInCamera_m());
+}
+
+Eigen::Vector3d NudgeGizmo::middleInCamera_m() const {
+  return pose().value_or(Pose()) * nudge_.frame().centre_in_station_m;
 }
 
 /// Turns about the station's middle, then moves, along the camera's axes.
 void NudgeGizmo::displace(const Eigen::Vector3d& turn_rad, const Eigen::Vector3d& move_m) {
+  const std::optional<Pose> from = pose();
+  if (!from) return;
   Vector6d displacement;
   displacement << turn_rad, move_m;
   nudge_.moveTo(
-      nudged(pose(), displacement, {.centre_in_station_m = nudge_.frame().centre_in_station_m}));
+      nudged(*from, displacement, {.centre_in_station_m = nudge_.frame().centre_in_station_m}));
 }
 
 bool NudgeGizmo::pressKey(const QKeyEvent& event) {
@@ -187,16 +207,14 @@ bool NudgeGizmo::pressKey(const QKeyEvent& event) {
       nudge_.useAsSeed();
       setActive(false);
       return true;
-    case Qt::Key_Escape:
-      state_.nudgedPose() ? nudge_.drop() : setActive(false);
-      return true;
     default:
       return false;
   }
 }
 
 bool NudgeGizmo::eventFilter(QObject* watched, QEvent* event) {
-  if (!active_ || !state_.currentCase()) return QObject::eventFilter(watched, event);
+  if (CanvasTool::eventFilter(watched, event)) return true;
+  if (!active_ || !state_.currentCase()) return false;
   switch (event->type()) {
     case QEvent::Wheel: {
       const auto& wheel = *static_cast<QWheelEvent*>(event);
@@ -206,7 +224,7 @@ bool NudgeGizmo::eventFilter(QObject* watched, QEvent* event) {
     }
     case QEvent::ShortcutOverride: {
       const int key = static_cast<QKeyEvent*>(event)->key();
-      const bool own = !directionOf(key).isZero() || key == Qt::Key_Escape || key == Qt::Key_Return;
+      const bool own = !directionOf(key).isZero() || key == Qt::Key_Return;
       if (own) event->accept();
       return own;
     }
@@ -219,9 +237,11 @@ bool NudgeGizmo::eventFilter(QObject* watched, QEvent* event) {
 
 QString NudgeGizmo::offsetText() const {
   const auto& loaded_case = state_.currentCase();
-  if (!loaded_case) return {};
+  if (!loaded_case || !pose()) return {};
+  if (!loaded_case->source.has_seed) return tr("The case has no seed yet.");
   const NudgeFrame frame = {.centre_in_station_m = nudge_.frame().centre_in_station_m};
-  const Vector6d offset = nudgeBetween(loaded_case->source.camera_from_station_seed, pose(), frame);
+  const Vector6d offset =
+      nudgeBetween(loaded_case->source.camera_from_station_seed, *pose(), frame);
   const auto millimetres = [&](int axis) { return signedText(1e3 * offset[axis]); };
   const auto degrees = [&](int axis) { return signedText(offset[axis] / kDegree_rad); };
   return tr("From the seed: x %1, y %2, z %3 mm; tilt %4, %5 deg, roll %6 deg.")
@@ -229,6 +249,9 @@ QString NudgeGizmo::offsetText() const {
 }
 
 void NudgeGizmo::paint(QPainter& painter) const {
+  if (active_ && state_.currentCase() && !pose())
+    paintNote(painter, {kNotesLeft, kNotesTop},
+              tr("No seed to move: annotate the case, or paste a pose."));
   const auto middle = active_ ? centre() : std::nullopt;
   if (!middle) return;
   painter.setRenderHint(QPainter::Antialiasing, true);

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include <QObject>
 #include <QPointF>
 #include <QString>
 
 #include "core/geometry/pose.h"
+#include "ui/views/canvas_tool.h"
 
 class QAction;
 class QKeyEvent;
@@ -15,7 +15,6 @@ class QPainter;
 
 namespace boresight::ui {
 
-class ImageView;
 class NudgeController;
 class ViewState;
 
@@ -25,7 +24,7 @@ class ViewState;
 /// Down by a hundredth of the distance; with Ctrl they turn it by a step. Shift: ten times as far,
 /// Alt: a tenth. Enter uses the pose as seed, Escape drops it, then the tool. One drag is one step
 /// of Undo. The distance from the seed is shown while it changes.
-class NudgeGizmo : public QObject {
+class NudgeGizmo : public CanvasTool {
   Q_OBJECT
 
  public:
@@ -41,19 +40,24 @@ class NudgeGizmo : public QObject {
   /// "From the seed: x +12.40, y -3.00, z 0.00 mm; tilt +1.20, 0.00 deg, roll -3.10 deg."
   QString offsetText() const;
 
+  void cancelGesture() override;
+  void leave() override { setActive(false); }
+  void escape() override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   enum class Part { kNone, kInside, kRing, kDistance, kTilt };
 
-  /// The nudged pose, else the seed: a rejected pose is not a start.
-  Pose pose() const;
+  /// The nudged pose, else the seed, else the annotated pose: a rejected pose is not a start. Empty
+  /// where there is none of these: then nothing moves.
+  std::optional<Pose> pose() const;
+  Eigen::Vector3d middleInCamera_m() const;
   /// Of the station's middle, on the widget; empty where it is behind the camera.
   std::optional<QPointF> centre() const;
   Part partAt(const QPointF& place) const;
   void press(const QPointF& pixel);
   void dragTo(const QPointF& pixel);
-  void release();
+  void finishDrag();
   void movePixels(const QPointF& by_px);
   void scaleDistance(double factor);
   void displace(const Eigen::Vector3d& turn_rad,
@@ -61,7 +65,6 @@ class NudgeGizmo : public QObject {
   bool pressKey(const QKeyEvent& event);
   void paint(QPainter& painter) const;
 
-  ImageView& view_;
   NudgeController& nudge_;
   ViewState& state_;
   QAction* action_;
