@@ -401,14 +401,14 @@ TEST_F(ImageAnnotationLayersTest, BandAndResiduals_FollowTheCurrentAnnotations) 
   };
   const double before_px = bandWidth_px();
   const sessions::PointPair moved = annotations().points.front();
-  ASSERT_TRUE(controller_.dragInImage(moved.id, *moved.pixel + Vector2d(1.5, 0.0)));
+  ASSERT_TRUE(controller_.dragInImage(moved.id, *moved.pixel + Vector2d(6.0, 0.0)));
   EXPECT_TRUE(band.empty()) << "it is not known yet";
   controller_.finishMove();
   ASSERT_TRUE(solved());
   ASSERT_TRUE(wait([&] { return !band.empty(); }));
   EXPECT_GT(bandWidth_px(), 2.0 * before_px);
 
-  moveFirst({0.5, 0.0});  // 2 px in all
+  moveFirst({-4.0, 0.0});  // 2 px in all
   const std::vector<Mark>& residuals = layer(LayerId::kAnnotationResiduals).marks;
   EXPECT_EQ(residuals.size(), annotations().points.size());
   const auto longestAt = [&](double magnification) {
