@@ -14,9 +14,11 @@
 namespace boresight::app {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t first_signal = 0;
 
-void onInterrupt(int) { interrupted = 1; }
+void onSignal(int signal) {
+  if (first_signal == 0) first_signal = signal;
+}
 
 /// Quoted for a shell.
 std::string inQuotes(const std::string& word) {
@@ -28,21 +30,28 @@ std::string inQuotes(const std::string& word) {
 }  // namespace
 
 InterruptWatch::InterruptWatch(const std::stop_source& source) {
-  interrupted = 0;
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
+  first_signal = 0;
+  struct sigaction action {};
+  action.sa_handler = onSignal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+  }
   thread_ = std::jthread([source](const std::stop_token& ended) {
     while (!ended.stop_requested()) {
-      if (interrupted != 0) source.request_stop();
+      if (first_signal != 0) source.request_stop();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   });
 }
 
 InterruptWatch::~InterruptWatch() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
 }
+
+int InterruptWatch::signal() const { return first_signal; }
 
 TerminalLine::TerminalLine() : on_terminal_(isatty(STDERR_FILENO) != 0) {}
 

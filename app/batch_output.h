@@ -2,6 +2,8 @@
 // Shared parts of commands that write results run by run.
 #pragma once
 
+#include <array>
+#include <csignal>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -11,13 +13,24 @@
 
 namespace boresight::app {
 
-/// Turns an interrupt into a stop, so that completed runs are still written.
+/// Turns SIGINT, SIGTERM, SIGHUP and SIGPIPE into a stop, so that completed runs are still written.
+/// A signal that was ignored before (nohup) stays ignored. One at a time in a process.
 class InterruptWatch {
  public:
   explicit InterruptWatch(const std::stop_source& source);
   ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+  /// The first signal since the start; 0: none.
+  int signal() const;
+  /// 128 + signal, as shells report it; `code` when there was none.
+  int exitCode(int code) const { return signal() == 0 ? code : 128 + signal(); }
 
  private:
+  static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+
+  std::array<struct sigaction, kSignals.size()> before_{};
   std::jthread thread_;
 };
 

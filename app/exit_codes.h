@@ -18,6 +18,6 @@ enum ExitCode : int {
 inline constexpr const char* kExitStatusText =
     "0 done (localize: converged), 2 usage, 3 bad input or an output that cannot be written, 4 did "
     "not converge, 5 different within the limits (compare), 6 different (compare, verify, tables), "
-    "1 internal fault.";
+    "1 internal fault, 128 + signal: interrupted (run).";
 
 }  // namespace boresight::app

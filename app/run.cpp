@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
+#include <optional>
+#include <stop_token>
 
+#include "app/batch_output.h"
 #include "app/case_arguments.h"
 #include "app/commands.h"
 #include "sessions/io/files/errors.h"
@@ -43,9 +46,13 @@ struct RunArguments {
   }
 };
 
-/// Runs and records one case; a line to stdout, a reason for a failure to stderr.
-int runOne(sessions::SessionDocument& document, const std::string& id) {
-  const sessions::LocalizationTrace trace = sessions::runCase(document.session(), id);
+/// Runs and records one case; a line to stdout. Empty, and nothing recorded, for a run that was
+/// stopped.
+std::optional<int> runOne(sessions::SessionDocument& document, const std::string& id,
+                          const std::stop_token& stop) {
+  const sessions::LocalizationTrace trace =
+      sessions::runCase(document.session(), id, sessions::RecordLevel::kFull, stop);
+  if (trace.status == LocalizationStatus::kRunning) return std::nullopt;
   const sessions::RunRecord run =
       sessions::storeRun(document.session(), id, trace, document.file());
   document.apply(sessions::withRun(document.session(), run), "Run " + id);
@@ -55,8 +62,11 @@ int runOne(sessions::SessionDocument& document, const std::string& id) {
 }
 
 /// Runs a case together with the other views of its rig and records a run of each.
-int runTogether(sessions::SessionDocument& document, const std::string& id) {
-  const auto views = sessions::runViews(document.session(), id);
+std::optional<int> runTogether(sessions::SessionDocument& document, const std::string& id,
+                               const std::stop_token& stop) {
+  const auto views = sessions::runViews(document.session(), id, stop);
+  for (const sessions::LocalizationTrace& view : views)
+    if (view.status == LocalizationStatus::kRunning) return std::nullopt;
   const auto runs = sessions::storeViews(document.session(), views, document.file());
   sessions::Session next = document.session();
   for (const sessions::RunRecord& run : runs) next = sessions::withRun(next, run);
@@ -106,10 +116,11 @@ void takeStated(sessions::SessionDocument& document, const std::vector<std::stri
   document.apply(next, "State end effector, requirement, frames");
 }
 
-int runSession(const RunArguments& arguments) {
-  sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
-  if (!arguments.again.empty()) return runAgain(document, arguments.again);
+/// Runs the cases in their order, until a signal, and saves the session with the runs that ended.
+int runAll(sessions::SessionDocument& document, const RunArguments& arguments) {
   const std::vector<std::string> case_ids = requestedCases(document, arguments.cases);
+  std::stop_source stop;
+  const InterruptWatch watch(stop);
   takeStated(document, case_ids, arguments.stated);
   int exit_code = kDone;
   std::vector<std::string> led;
@@ -120,17 +131,26 @@ int runSession(const RunArguments& arguments) {
     if (together && rigHasRun(document.session(), id, led)) continue;
     if (together) led.push_back(id);
     try {
-      const int code = together ? runTogether(document, id) : runOne(document, id);
-      if (exit_code == kDone) exit_code = code;
+      const auto code = together ? runTogether(document, id, stop.get_token())
+                                 : runOne(document, id, stop.get_token());
+      if (exit_code == kDone) exit_code = code.value_or(kDone);
     } catch (const sessions::InputError& error) {
       // Errors of the case itself name it already.
       const std::string place = "case " + id + ": ", what = error.what();
       std::cerr << sessions::plainLine(what.starts_with(place) ? what : place + what);
       exit_code = kBadInput;
     }
+    if (watch.signal() != 0) break;
   }
   document.save();
-  return exit_code;
+  if (watch.signal() != 0) note("interrupted; the runs that ended are saved");
+  return watch.exitCode(exit_code);
+}
+
+int runSession(const RunArguments& arguments) {
+  sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
+  return arguments.again.empty() ? runAll(document, arguments)
+                                 : runAgain(document, arguments.again);
 }
 
 }  // namespace

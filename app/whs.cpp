@@ -147,7 +147,8 @@ int main(int argc, char** argv) {
   const PlainOutput plain_output(std::cout);
   const PlainOutput plain_errors(std::cerr);
   const int exit_code = runGuarded(argc, argv);
-  if (std::cout.flush()) return exit_code;
+  constexpr int kBySignal = 128;  // exit codes above: also of a reader that closed the pipe
+  if (std::cout.flush() || exit_code > kBySignal) return exit_code;
   note("cannot write standard output: the output is incomplete; is the device full?");
   return exit_code == kDone ? kBadInput : exit_code;
 }

@@ -17,13 +17,13 @@ namespace boresight::test {
 
 /// How whs ended that got a signal.
 struct EndedWhs {
-  int held = 0;    ///< runs in its results
+  int held = 0;    ///< runs that it has stored
   int status = 0;  ///< as waitpid gives it
 };
 
-/// Runs whs and sends it a signal as soon as its results hold `runs` runs.
-inline EndedWhs endWhsAfter(const Arguments& arguments, int signal,
-                            const std::filesystem::path& results, int runs) {
+/// Runs whs and sends it a signal as soon as `held()`, its stored runs, is `runs`.
+template <class Held>
+EndedWhs endWhsWhen(const Arguments& arguments, int signal, const Held& held, int runs) {
   const pid_t child = fork();
   if (child == 0) {
     std::vector<char*> words = {const_cast<char*>(BORESIGHT_WHS)};
@@ -36,6 +36,17 @@ inline EndedWhs endWhsAfter(const Arguments& arguments, int signal,
     execv(BORESIGHT_WHS, words.data());
     _exit(127);
   }
+  EndedWhs ended;
+  while (held() < runs && waitpid(child, &ended.status, WNOHANG) == 0) usleep(2000);
+  kill(child, signal);
+  waitpid(child, &ended.status, 0);
+  ended.held = held();
+  return ended;
+}
+
+/// As soon as its results file holds `runs` runs.
+inline EndedWhs endWhsAfter(const Arguments& arguments, int signal,
+                            const std::filesystem::path& results, int runs) {
   const auto held = [&results] {
     try {
       return static_cast<int>(sessions::readResults(results).runs.size());
@@ -43,12 +54,7 @@ inline EndedWhs endWhsAfter(const Arguments& arguments, int signal,
       return 0;  // not there yet
     }
   };
-  EndedWhs ended;
-  while (held() < runs && waitpid(child, &ended.status, WNOHANG) == 0) usleep(2000);
-  kill(child, signal);
-  waitpid(child, &ended.status, 0);
-  ended.held = held();
-  return ended;
+  return endWhsWhen(arguments, signal, held, runs);
 }
 
 }  // namespace boresight::test

@@ -2,9 +2,14 @@
 // new, run, pack, and info of a session.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
+#include "tests/app/ended_whs.h"
 #include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/annotated_example.h"
@@ -54,6 +59,42 @@ TEST(WhsRun, EndEffectorAndRequirementAreStatedAsAnEdit) {
   EXPECT_EQ(session.cases[0]->requirement->lateral_mm, 0.6);
   EXPECT_NE(session.cases[1]->requirement, session.cases[0]->requirement) << "not asked for";
   runWhs({"run", file, "--again", session.runs[0].digest, "--requirement", "1"}, 2);
+}
+
+/// The traces in a session's folder of runs.
+int storedTraces(const std::filesystem::path& session_file) {
+  std::error_code none_yet;
+  const std::filesystem::directory_iterator runs(sessions::runsFolderOf(session_file), none_yet);
+  return static_cast<int>(std::count_if(begin(runs), end(runs), [](const auto& entry) {
+    return entry.path().extension() == ".trace";
+  }));
+}
+
+TEST(WhsRun, SignalKeepsAndSavesTheRunsThatEnded) {
+  for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) {
+    const TemporaryFolder folder;
+    const std::string file = newSession(folder, true);
+    Session session = sessions::readSessionFile(file).session;
+    const sessions::SessionCase one = *session.cases[0];
+    for (int i = 0; i < 100; ++i) {
+      sessions::SessionCase copy = one;
+      copy.id = "copy" + std::to_string(i);
+      // Another run each, with a trace of its own.
+      copy.camera_from_station_seed.translation_m.x() += 1e-6 * i;
+      session.cases.push_back(std::move(copy));
+    }
+    sessions::writeSessionFile(file, session);
+    const EndedWhs ended = endWhsWhen(
+        {"run", file}, signal, [&file] { return storedTraces(file); }, 2);
+    ASSERT_TRUE(WIFEXITED(ended.status)) << signal;
+    EXPECT_EQ(WEXITSTATUS(ended.status), 128 + signal);
+    EXPECT_FALSE(std::filesystem::exists(sessions::journalFileOf(file)));
+    EXPECT_FALSE(std::filesystem::exists(sessions::lockFileOf(file)));
+    const Session saved = sessions::readSessionFile(file).session;
+    EXPECT_EQ(saved.runs.size(), static_cast<std::size_t>(ended.held));
+    EXPECT_GE(ended.held, 2);
+    EXPECT_LT(saved.runs.size(), session.cases.size());
+  }
 }
 
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
