@@ -245,6 +245,13 @@ void SessionDocument::discardChanges() {
   session_ = saved_;
 }
 
+void SessionDocument::readAgain() {
+  SavedSession saved = readSessionFile(file_);
+  discardChanges();
+  file_sha256_ = saved.file_sha256;
+  session_ = saved_ = std::move(saved.session);
+}
+
 void SessionDocument::saveAs(const fs::path& file) {
   SessionDocument other(file);
   if (other.file_ == file_) return save();

@@ -80,6 +80,10 @@ class SessionDocument {
   /// Resets the session to the content of the file, with nothing left to recover. OutputError when
   /// the document is read-only.
   void discardChanges();
+  /// Discards the changes and reads the file again, as another program may have left it.
+  /// OutputError as above; InputError when the file is no longer a session. Then nothing has
+  /// changed.
+  void readAgain();
   /// Saves under another name, replacing an existing file, and continues there; traces of runs are
   /// copied. The former file stays as it was last saved. OutputError leaves the document unchanged.
   void saveAs(const std::filesystem::path& file);

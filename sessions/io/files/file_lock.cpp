@@ -67,6 +67,18 @@ bool isStillNamed(int descriptor, const fs::path& file) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
+/// A query by isLocked() holds the file for some microseconds.
+bool takeWithinQueries(int descriptor) {
+  constexpr int kAttempts = 5;
+  for (int i = 0; i < kAttempts; ++i) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK) return false;
+    ::usleep(2000);
+  }
+  errno = EWOULDBLOCK;
+  return false;
+}
+
 }  // namespace
 
 std::string LockHolder::text() const {
@@ -96,6 +108,18 @@ bool hasEnded(const LockHolder& holder) {
   return start == 0 || start != holder.process_start;
 }
 
+bool isLocked(const fs::path& lock_file) {
+  const int descriptor = ::open(lock_file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  // Shared: queries do not exclude each other.
+  const bool free = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+  const bool refused = !free && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  if (free || refused) return refused;
+  const std::optional<LockHolder> holder = readLockFile(lock_file);
+  return holder && !hasEnded(*holder);
+}
+
 FileLock::FileLock(const fs::path& lock_file) : file_(lock_file) {
   // The holder may remove the file between our open and our flock; then the name is tried again.
   constexpr int kAttempts = 100;
@@ -107,7 +131,7 @@ FileLock::FileLock(const fs::path& lock_file) : file_(lock_file) {
 bool FileLock::take() {
   const int descriptor = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) throw OutputError(file_, std::strerror(errno));
-  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  const bool locked = takeWithinQueries(descriptor);
   const bool refused = !locked && errno == EWOULDBLOCK;
   if (locked && !isStillNamed(descriptor, file_)) {
     ::close(descriptor);

@@ -47,6 +47,9 @@ class FileLock {
   std::optional<LockHolder> stale_;
 };
 
+/// Whether a program holds this lock; nothing is written. False for a missing file.
+bool isLocked(const std::filesystem::path& lock_file);
+
 /// The holder named in a lock file; empty when the file is missing, empty or not a lock file.
 std::optional<LockHolder> readLockFile(const std::filesystem::path& lock_file);
 

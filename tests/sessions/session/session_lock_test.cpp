@@ -53,6 +53,26 @@ TEST(FileLock, IsTakenOverFromAKilledProgram) {
   EXPECT_TRUE(sessions::hasEnded(*lock.stale()));
 }
 
+TEST(FileLock, Query_KnowsAHolderAndNeitherTakesNorChangesTheLock) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(sessions::isLocked(folder / "s.lock"));
+  EXPECT_EQ(folder.fileCount(), 0u);
+  {
+    const FileLock lock(folder / "s.lock");
+    const std::string named = folder.read("s.lock");
+    EXPECT_TRUE(sessions::isLocked(folder / "s.lock"));
+    EXPECT_EQ(folder.read("s.lock"), named);
+  }
+  (void)inChild([&]() -> std::string {
+    const FileLock lock(folder / "s.lock");
+    ::kill(::getpid(), SIGKILL);
+    return "";
+  });
+  ASSERT_EQ(folder.fileCount(), 1u);
+  EXPECT_FALSE(sessions::isLocked(folder / "s.lock")) << "its holder was killed";
+  EXPECT_TRUE(FileLock(folder / "s.lock").stale());
+}
+
 TEST(FileLock, KnowsAProcessByItsStartToo) {
   const TemporaryFolder folder;
   const FileLock lock(folder / "s.lock");
