@@ -151,8 +151,8 @@ class AnnotationController : public QObject {
   /// Solves another case with this one from now on, as images of cameras that are rigidly linked.
   void linkCase(const std::string& other_id, const Pose& other_from_case);
   void unlinkCase();
-  /// Sets the file of named points, for all cases of this station.
-  void setLandmarksFile(const std::filesystem::path& file);
+  /// Sets the file of named points, for all cases of this station. Returns whether it is in effect.
+  bool setLandmarksFile(const std::filesystem::path& file);
 
  Q_SIGNALS:
   void modeChanged();

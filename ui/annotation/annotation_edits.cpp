@@ -196,7 +196,7 @@ void AnnotationController::confirmSeen() {
     point.pixel = *pixel;
     confirmed = sessions::withPair(std::move(confirmed), point.id, point);
   }
-  if (found > 0) commit(confirmed, tr("Confirm %1 landmarks").arg(found));
+  if (found > 0 && !commit(confirmed, tr("Confirm %1 landmarks").arg(found))) return;
   Q_EMIT told(
       tr("%1 of %2 landmarks match a corner or an ellipse of the image; place the others by hand.")
           .arg(found)
@@ -272,8 +272,9 @@ void AnnotationController::useAsTruth() {
   sessions::SessionCase changed = *session_case;
   sessions::setTruth(changed, *solvedPose(), {sessions::TruthOrigin::kAnnotated, "", "", ""},
                      answer_.covariance);
-  document_.edit(sessions::withCase(document_.session(), std::move(changed)),
-                 tr("Use the annotated pose of %1 as its truth").arg(fromText(case_id_)));
+  if (!document_.edit(sessions::withCase(document_.session(), std::move(changed)),
+                      tr("Use the annotated pose of %1 as its truth").arg(fromText(case_id_))))
+    return;
   QString text =
       (replaces ? tr("The annotated pose has replaced the truth of %1; Undo restores it.")
                 : tr("The annotated pose is now the truth of %1."))
@@ -287,12 +288,12 @@ void AnnotationController::useAsSeed() {
   const sessions::SessionCase* session_case =
       state_.currentCase() ? finishMoveAndFindSolvedCase() : nullptr;
   if (!session_case) return;
-  document_.edit(
-      sessions::withCase(
-          document_.session(),
-          sessions::withMeasuredSeed(*session_case, state_.currentCase()->scene.view(),
-                                     *solvedPose(), answer_.covariance.value_or(Matrix6d::Zero()))),
-      tr("Use the annotated pose of %1 as its seed").arg(fromText(case_id_)));
+  sessions::SessionCase changed =
+      sessions::withMeasuredSeed(*session_case, state_.currentCase()->scene.view(), *solvedPose(),
+                                 answer_.covariance.value_or(Matrix6d::Zero()));
+  if (!document_.edit(sessions::withCase(document_.session(), std::move(changed)),
+                      tr("Use the annotated pose of %1 as its seed").arg(fromText(case_id_))))
+    return;
   Q_EMIT told(tr("The annotated pose is the seed of %1, with 3 sigma as its uncertainty.")
                   .arg(fromText(case_id_)));
 }
@@ -311,9 +312,9 @@ void AnnotationController::unlinkCase() {
                  tr("Take %1 out of its rig").arg(fromText(case_id_)));
 }
 
-void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
+bool AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
   const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
-  if (!session_case) return;
+  if (!session_case) return false;
   landmarks_file_.reset();  // read again, also where only its content has changed
   sessions::Session session = document_.session();
   for (const auto& each : document_.session().cases) {
@@ -324,9 +325,10 @@ void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
   }
   if (!document_.edit(session,
                       tr("Use the landmarks of %1").arg(fromText(file.filename().string()))))
-    return;
+    return false;
   showLandmarks();
   askIfChanged(false);
+  return true;
 }
 
 }  // namespace boresight::ui

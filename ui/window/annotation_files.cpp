@@ -124,8 +124,8 @@ void AnnotationFiles::openLandmarks() {
   if (file.empty()) return;
   attempt([&] {
     const auto landmarks = sessions::readLandmarks(file);  // before the session names it
-    parts_.annotation.setLandmarksFile(file);
-    Q_EMIT noted(tr("%1 landmarks of %2.").arg(landmarks.size()).arg(fileNameOf(file)));
+    if (parts_.annotation.setLandmarksFile(file))
+      Q_EMIT noted(tr("%1 landmarks of %2.").arg(landmarks.size()).arg(fileNameOf(file)));
   });
 }
 

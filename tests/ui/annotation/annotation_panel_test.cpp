@@ -6,6 +6,7 @@
 #include <QtWidgets>
 
 #include "sessions/session/rig_links.h"
+#include "sessions/session/session_file.h"
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "ui/annotation/ambiguity_view.h"
 
@@ -102,6 +103,20 @@ TEST_F(AnnotationPanelTest, WeakGeometry_IsShownAndReportedWithTheTruthMadeOfIt)
   ASSERT_TRUE(document_.undo());  // the drag
   ASSERT_TRUE(document_.undo());
   EXPECT_EQ(stored().camera_from_station_truth, before);
+}
+
+TEST_F(AnnotationPanelTest, TruthAndSeedThatCannotBeStored_AreNotReportedAsSet) {
+  solveCorners(5);
+  QSignalSpy told(&controller_, &AnnotationController::told);
+  QSignalSpy refused(&document_, &Document::writeFailed);
+  const std::filesystem::path journal = sessions::journalFileOf(document_.file());
+  std::filesystem::remove(journal);
+  std::filesystem::create_directory(journal);
+  controller_.useAsTruth();
+  controller_.useAsSeed();
+  EXPECT_EQ(refused.size(), 2);
+  EXPECT_EQ(told.size(), 0);
+  std::filesystem::remove(journal);
 }
 
 TEST_F(AnnotationPanelTest, Table_SelectsMovesTurnsOffRemovesAndLeadsToTheImage) {
