@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include <QObject>
 #include <QString>
 #include <QStringList>
 
 #include "sessions/session/session_document.h"
+#include "sessions/session/session_edit.h"
 
 namespace boresight::ui {
+
+/// Whether the unsaved changes of the session that is left are kept in its journal, or dropped for
+/// good; an untitled session is then deleted with its runs.
+enum class Former { kKeep, kDiscard };
 
 /// The open session of the window: its value, its undo history, and signals when either changes.
 /// Every edit is in the journal before `changed` is emitted. A failure emits `failed` with one
@@ -34,27 +41,28 @@ class Document : public QObject {
   /// Unsaved edits of a program that was killed, waiting for a decision.
   const std::optional<sessions::Recovery>* recovery() const;
 
-  /// Each of these returns whether it succeeded.
-  bool open(const std::filesystem::path& file);
+  /// Sentences for the operator about its opening, once: a journal that was set aside, a lock that
+  /// a killed program left.
+  QStringList takeNotices() { return std::exchange(notices_, {}); }
+
+  /// Each of these returns whether it succeeded; else the open session is as it was. The session
+  /// that is open already is read again, unless its changes are kept.
+  bool open(const std::filesystem::path& file, Former former = Former::kKeep);
   bool create(const std::filesystem::path& file, const sessions::Session& session);
   /// Creates a session in untitledFolder(); saveAs() names it.
-  bool createUntitled(const sessions::Session& session);
+  bool createUntitled(const sessions::Session& session, Former former = Former::kKeep);
   bool save();
-  /// Also applies the last edit that could not be written, if any.
   bool saveAs(const std::filesystem::path& file);
-  void close();
-  /// Removes an untitled session with its runs; nothing is open afterwards.
-  void discardUntitled();
-  /// Permanently drops all changes since the session was saved.
-  bool discardChanges();
+  bool close(Former former = Former::kKeep);
   bool acceptRecovery();
   bool declineRecovery();
 
-  /// One edit, to be undone as one.
+  /// One edit, to be undone as one. Returns whether it is in effect: performed here, or, where it
+  /// cannot be written and the receiver of `writeFailed` calls saveAs(), performed and saved there.
   bool edit(const sessions::Session& after, const QString& text);
   /// Records an event that is not an edit (a run that ended, the shown case): in the journal, but
-  /// not undoable.
-  bool note(const sessions::Session& after, const QString& text);
+  /// not undoable. Without a change `changed` is not emitted.
+  bool note(const sessions::SessionEdit& event, const QString& text);
   bool undo();
   bool redo();
   bool canUndo() const { return history_ && history_->canUndo(); }
@@ -64,15 +72,15 @@ class Document : public QObject {
   /// All edits, the undone ones last; the first editsDone() are in effect.
   QStringList editTexts() const;
   std::size_t editsDone() const { return history_ ? history_->done() : 0; }
-  /// Undoes or redoes until this number of edits is in effect.
+  /// Undoes or redoes until this number of edits is in effect, as far as they can be written.
   bool goToEdit(std::size_t done);
 
   /// The folder of sessions without a name.
   static std::filesystem::path untitledFolder();
   /// The newest session without a name that no program has open, or empty.
   static std::optional<std::filesystem::path> leftUntitled();
-  /// Removes such a session with its runs.
-  static void removeUntitled(const std::filesystem::path& file);
+  /// Removes such a session with its runs, unless a program has it open.
+  static bool removeUntitled(const std::filesystem::path& file);
 
  Q_SIGNALS:
   /// It is about to be saved, left, or changed by its history: gestures under way become edits now.
@@ -85,24 +93,25 @@ class Document : public QObject {
   void writeFailed(const QString& message);
 
  private:
-  /// An edit that could not be written to the journal; the next saveAs() applies it.
-  struct Refused {
-    sessions::Session after;
-    QString text;
-  };
-
   using Signal = void (Document::*)();
 
   /// Emits `done` (unless nullptr) once the action has been done.
   template <class Action>
   bool attempt(Signal done, Action&& action);
-  void become(sessions::SessionDocument&& document, bool untitled);
+  void report(const std::exception& error);
+  bool editElsewhere(const sessions::SessionEdit& refused, const QString& text,
+                     const std::exception& error);
+  void become(sessions::SessionDocument&& document, bool untitled, Former former);
+  void leave(Former former);
+  bool readAgain(Former former);
 
   std::optional<sessions::SessionDocument> document_;
   std::optional<sessions::SessionHistory> history_;
   sessions::Session empty_;
   bool untitled_ = false;
-  std::optional<Refused> refused_;
+  QStringList notices_;
+  int openings_ = 0;  ///< number of sessions opened and closed so far
+  int saved_as_ = 0;  ///< number of saveAs() so far
 };
 
 }  // namespace boresight::ui

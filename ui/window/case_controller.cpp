@@ -407,13 +407,13 @@ void CaseController::store(const EndedRun& ended) {
       });
 }
 
-/// A run that is repeated within a second has the record that the session has. It is not noted: a
-/// session that stays unmodified counts as saved, and runs without room would be stored again.
 bool CaseController::noteRuns(const std::vector<sessions::RunRecord>& records) {
-  sessions::Session after = document_.session();
-  for (const sessions::RunRecord& run : records) after = sessions::withRun(after, run);
-  return after == document_.session() ||
-         document_.note(after, tr("Run %1").arg(fromText(records.front().case_id)));
+  const auto with_runs = [&records](const sessions::Session& session) {
+    sessions::Session after = session;
+    for (const sessions::RunRecord& run : records) after = sessions::withRun(after, run);
+    return after;
+  };
+  return document_.note(with_runs, tr("Run %1").arg(fromText(records.front().case_id)));
 }
 
 QStringList CaseController::unstoredRuns() const {

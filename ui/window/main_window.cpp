@@ -195,13 +195,16 @@ void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { fi
 void MainWindow::closeEvent(QCloseEvent* event) {
   Q_EMIT parts_.document.aboutToChange();
   parts_.cases.finishStoring();
-  if (!files_->mayLeave()) return event->ignore();
+  const std::optional<Former> former = files_->mayLeave();
+  if (!former) return event->ignore();
+  if (remembers_layout_) {  // before the session is closed: that changes the workspace
+    QSettings settings;
+    settings.setValue(QLatin1String(kGeometryKey), saveGeometry());
+    workspaces_->save(settings);
+  }
+  if (*former == Former::kDiscard && !parts_.document.close(*former)) return event->ignore();
   parts_.cases.stop();
   event->accept();
-  if (!remembers_layout_) return;
-  QSettings settings;
-  settings.setValue(QLatin1String(kGeometryKey), saveGeometry());
-  workspaces_->save(settings);
 }
 
 void MainWindow::rememberLayout() {
@@ -243,7 +246,12 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::showDocument() {
-  if (!quiet_) files_->offerRecovery();
+  const QString notices = parts_.document.takeNotices().join(QLatin1Char('\n'));
+  if (parts_.document.recovery()) {
+    if (!quiet_) files_->offerRecovery(notices);
+  } else if (!notices.isEmpty()) {
+    showMessage(notices);
+  }
   const QString reason = parts_.document.readOnlyReason();
   if (!reason.isEmpty() && !parts_.document.recovery()) statusBar()->showMessage(reason);
   showState();

@@ -68,16 +68,20 @@ QString meshUnitText(const char* unit, const std::optional<double>& extent) {
 SessionFiles::SessionFiles(QWidget& window, WindowParts& parts)
     : QObject(&window), window_(window), parts_(parts) {}
 
-bool SessionFiles::open(const std::filesystem::path& file) {
-  if (!parts_.document.open(file)) return false;
+bool SessionFiles::open(const std::filesystem::path& file, Former former) {
+  if (!parts_.document.open(file, former)) return false;
   noteRecentFile(file);
   return true;
+}
+
+void SessionFiles::leaveFor(const std::filesystem::path& file) {
+  if (const auto former = mayLeave()) open(file, *former);
 }
 
 void SessionFiles::askForSession() {
   const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a session"), {},
                                                     tr("Sessions (*.json);;All files (*)"));
-  if (!file.isEmpty() && mayLeave()) open(path(file));
+  if (!file.isEmpty()) leaveFor(path(file));
 }
 
 void SessionFiles::askForFiles() {
@@ -98,7 +102,7 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   const std::string kept = restarts ? std::string() : alone.keptNames(collected_);
   for (const std::string& problem : dropped.problems) Q_EMIT failed(fromText(problem));
   if (dropped.session) {
-    if (mayLeave()) open(*dropped.session);
+    leaveFor(*dropped.session);
     return;
   }
   if (dropped.results) return makeFrom(*dropped.results, true);
@@ -251,31 +255,32 @@ void SessionFiles::makeCollected() {
 }
 
 void SessionFiles::openExample(const std::filesystem::path& file) {
-  if (!mayLeave()) return;
+  const std::optional<Former> former = mayLeave();
+  if (!former) return;
   try {
     const auto example = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
-    if (parts_.document.createUntitled(example.session())) parts_.cases.runOnceLoaded();
+    if (parts_.document.createUntitled(example.session(), *former)) parts_.cases.runOnceLoaded();
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
   }
 }
 
 void SessionFiles::recoverUntitled(const std::filesystem::path& file) {
-  if (!mayLeave()) return;
+  const std::optional<Former> former = mayLeave();
+  if (!former) return;
   recovers_ = true;  // as the operator has requested
-  const bool opened = parts_.document.open(file);
+  const bool opened = parts_.document.open(file, *former);
   recovers_ = false;
   if (opened && parts_.document.recovery()) parts_.document.acceptRecovery();
 }
 
 void SessionFiles::closeSession() {
-  if (mayLeave()) parts_.document.close();
+  if (const auto former = mayLeave()) parts_.document.close(*former);
 }
 
 /// Every image and mesh is read and hashed: off the UI's thread. Runs of results become cases, the
-/// worst first, and the queue is brought to the front.
+/// worst first, and the queue is brought to the front. The open session is left when that is done.
 void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
-  if (!mayLeave()) return;
   forgetCollected();
   Q_EMIT noted(
       (results ? tr("Reading %1 and its dataset's files ...") : tr("Reading %1 and its files ..."))
@@ -287,8 +292,9 @@ void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
       },
       [this, results](const sessions::Session& session) {
         Q_EMIT noted({});
-        parts_.document.createUntitled(session);
-        if (results) Q_EMIT queueWanted();
+        const std::optional<Former> former = mayLeave();
+        if (former && parts_.document.createUntitled(session, *former) && results)
+          Q_EMIT queueWanted();
       });
 }
 
@@ -323,8 +329,8 @@ void SessionFiles::addCase(const QString& kept) {
       });
 }
 
-/// Part of the open session, or a new one where none can be edited. False when the operator has
-/// cancelled.
+/// Part of the open session, or a new one where none can be edited. False when it is in no session:
+/// the operator has cancelled, or it cannot be written.
 bool SessionFiles::takeCase(sessions::SessionCase session_case) {
   Document& document = parts_.document;
   const bool alone = !document.isEditable();
@@ -333,11 +339,12 @@ bool SessionFiles::takeCase(sessions::SessionCase session_case) {
   const sessions::Session session =
       sessions::withCase(alone ? sessions::Session() : document.session(), std::move(session_case));
   if (alone) {
-    document.createUntitled(session);
-  } else if (document.edit(session, tr("Add %1").arg(id))) {
-    parts_.cases.chooseCase(id);
-    Q_EMIT caseAdded();
+    const std::optional<Former> former = mayLeave();
+    return former && document.createUntitled(session, *former);
   }
+  if (!document.edit(session, tr("Add %1").arg(id))) return false;
+  parts_.cases.chooseCase(id);
+  Q_EMIT caseAdded();
   return true;
 }
 
@@ -429,12 +436,13 @@ bool SessionFiles::mayLoseRuns() {
   return answer == QMessageBox::Discard || parts_.cases.unstoredRuns().isEmpty();
 }
 
-bool SessionFiles::mayLeave() {
+std::optional<Former> SessionFiles::mayLeave() {
   Q_EMIT parts_.document.aboutToChange();  // or a gesture under way would be lost
-  if (!mayLoseRuns()) return false;
-  Document& document = parts_.document;
+  if (!mayLoseRuns()) return std::nullopt;
+  const Document& document = parts_.document;
+  const std::filesystem::path asked = document.file();
   const bool untitled = document.isUntitled();
-  if (!untitled && !document.isModified()) return true;
+  if (!untitled && !document.isModified()) return Former::kKeep;
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   untitled ? tr("Save this session? It has no name yet.")
                            : tr("Save the changes of %1?").arg(text(document.file().filename())),
@@ -443,13 +451,12 @@ bool SessionFiles::mayLeave() {
       untitled ? tr("Discarding deletes the session and its runs; its input files stay.")
                : tr("Discarding drops them for good."));
   const int answer = box.exec();
-  if (answer == QMessageBox::Save) return save();
-  if (answer == QMessageBox::Discard && untitled) document.discardUntitled();
-  if (answer == QMessageBox::Discard && !untitled) document.discardChanges();
-  return answer == QMessageBox::Discard;
+  if (document.file() != asked) return std::nullopt;  // a task has opened another one meanwhile
+  if (answer == QMessageBox::Discard) return Former::kDiscard;
+  return answer == QMessageBox::Save && save() ? std::optional(Former::kKeep) : std::nullopt;
 }
 
-void SessionFiles::offerRecovery() {
+void SessionFiles::offerRecovery(const QString& notices) {
   Document& document = parts_.document;
   if (!document.recovery() || recovers_) return;
   const sessions::Recovery& recovery = **document.recovery();
@@ -460,6 +467,7 @@ void SessionFiles::offerRecovery() {
                   tr("Recover unsaved work of %1 from %2 (%3)?")
                       .arg(text(document.file().filename()), time, changes),
                   QMessageBox::NoButton, &window_);
+  box.setInformativeText(notices);
   QStringList edits;
   for (const std::string& edit : recovery.edits) edits << fromText(edit);
   box.setDetailedText(edits.join(QLatin1Char('\n')));

@@ -13,6 +13,7 @@
 #include <QStringList>
 
 #include "sessions/session/session.h"
+#include "ui/state/document.h"
 #include "ui/window/dropped_files.h"
 #include "ui/window/window_parts.h"
 #include "ui/workspaces/verdict.h"
@@ -43,14 +44,19 @@ class SessionFiles : public QObject {
   SessionFiles(QWidget& window, WindowParts& parts);
 
   /// False, with a message, when it cannot be opened.
-  bool open(const std::filesystem::path& file);
+  bool open(const std::filesystem::path& file, Former former = Former::kKeep);
   /// Takes another session, a dataset, results, or files of a case; the latter are collected until
   /// the case is complete.
   void take(const std::vector<std::filesystem::path>& files);
-  /// Whether the open session may be left; asks when it has changes.
-  bool mayLeave();
-  /// Offers the edits of a program that was killed, if there are any.
-  void offerRecovery();
+  /// Asks when the open session has changes, and saves them where that is the answer. Returns what
+  /// the caller passes on to Document, which discards them once the next session is open; empty:
+  /// the session may not be left.
+  std::optional<Former> mayLeave();
+  /// Leaves the open session for another, unless the operator keeps it open.
+  void leaveFor(const std::filesystem::path& file);
+  /// Offers the edits of a program that was killed, if there are any; `notices` are shown with
+  /// them.
+  void offerRecovery(const QString& notices = {});
 
   /// Files of a case that is not complete yet.
   const DroppedFiles& collected() const { return collected_; }

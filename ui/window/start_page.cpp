@@ -206,12 +206,17 @@ void StartPage::buildLeft() {
   connect(ui_.recoverLeft, &QPushButton::clicked, this,
           [this] { files_.recoverUntitled(left_file_); });
   connect(ui_.discardLeft, &QPushButton::clicked, this, [this] {
-    discards_ = !discards_;
-    ui_.discardLeft->setText(discards_ ? tr("Delete for good") : tr("Discard"));
-    if (discards_) return;
+    const bool deletes = discards_;
+    setDiscards(!deletes);
+    if (!deletes) return;
     Document::removeUntitled(left_file_);
     showLeft();
   });
+}
+
+void StartPage::setDiscards(bool discards) {
+  discards_ = discards;
+  ui_.discardLeft->setText(discards_ ? tr("Delete for good") : tr("Discard"));
 }
 
 void StartPage::showRecent() {
@@ -228,10 +233,7 @@ void StartPage::showRecent() {
             .arg(info.fileName(), QLocale().toString(info.lastModified(), QLocale::ShortFormat)));
     open->setToolTip(file);
     connect(
-        open, &QToolButton::clicked, this,
-        [this, file] {
-          if (files_.mayLeave()) files_.open(file.toStdString());
-        },
+        open, &QToolButton::clicked, this, [this, file] { files_.leaveFor(file.toStdString()); },
         Qt::QueuedConnection);
     ui_.recent->addWidget(open);
   }
@@ -243,8 +245,9 @@ void StartPage::showRecent() {
 void StartPage::showLeft() {
   const auto file = document_.isUntitled() ? std::nullopt : Document::leftUntitled();
   ui_.leftWork->setVisible(file.has_value());
+  const std::filesystem::path left = file.value_or(std::filesystem::path());
+  if (std::exchange(left_file_, left) != left) setDiscards(false);
   if (!file) return;
-  left_file_ = *file;
   QDateTime time;  // of the last change, which is in the journal
   const QFileInfo info(fromText(file->string()));
   for (const QFileInfo& each :

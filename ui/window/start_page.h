@@ -38,6 +38,7 @@ class StartPage : public QScrollArea {
   void addExample(const QString& title, const QString& text, const std::filesystem::path& session,
                   const std::filesystem::path& image);
   void buildLeft();
+  void setDiscards(bool discards);
   FileSlot& slot(sessions::InputKind kind) { return slots_[static_cast<std::size_t>(kind)]; }
   void showSlots();
   void showSlot(sessions::InputKind kind);

@@ -405,9 +405,7 @@ void WindowMenus::showRecent() {
   ui_.recentMenu->clear();
   const QStringList files = recentFiles();
   for (const QString& file : files) {
-    ui_.recentMenu->addAction(file, this, [this, file] {
-      if (files_.mayLeave()) files_.open(file.toStdString());
-    });
+    ui_.recentMenu->addAction(file, this, [this, file] { files_.leaveFor(file.toStdString()); });
   }
   if (files.isEmpty()) ui_.recentMenu->addAction(tr("None yet"))->setEnabled(false);
 }

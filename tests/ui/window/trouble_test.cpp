@@ -1,38 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A full disk, a read-only folder, a program that was killed: what the window says and what it
 // keeps.
-#include <sys/resource.h>
 #include <unistd.h>
-
-#include <csignal>
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 #include "tests/ui/window/desktop.h"
+#include "tests/ui/window/full_disk.h"
 #include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
 
-/// Limits the size of this process's files during its lifetime: a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    before_ = std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &limit_);
-    const rlimit small{bytes, limit_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~FullDisk() { end(); }
-  void end() {
-    ::setrlimit(RLIMIT_FSIZE, &limit_);
-    std::signal(SIGXFSZ, before_);
-  }
-
- private:
-  rlimit limit_{};
-  void (*before_)(int) = nullptr;
-};
+using test::FullDisk;
 
 /// Answers message boxes by a button, and the file dialog after them by a name.
 struct Answers {
@@ -191,6 +171,25 @@ TEST_F(TroubleTest, EditsOfAKilledProgram_AreOfferedAndRecoveredOrSetAside) {
     EXPECT_EQ(window_.document().isModified(), recovers);
   }
   EXPECT_TRUE(std::filesystem::exists(folder_ / "one.boresight.journal.aside-1"));
+}
+
+TEST_F(TroubleTest, ALaterSaveElsewhere_DoesNotPerformARefusedEdit) {
+  openExample();
+  const double before = seedIn(window_.document().session());
+  {
+    const FullDisk disk(64);
+    Answers answers{QStringLiteral("Close")};
+    setSeed(0.25);
+  }
+  ASSERT_TRUE(window_.document().saveAs(elsewhere_));
+  EXPECT_EQ(seedIn(window_.document().session()), before);
+}
+
+TEST_F(TroubleTest, AJournalOfAnotherState_IsSetAsideWithAMessage) {
+  folder_.write("one.boresight.journal", "{}");
+  Answers answers{QStringLiteral("OK")};
+  openExample();
+  EXPECT_TRUE(test::has(answers.text, "one.boresight.journal.aside-1"));
 }
 
 TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {

@@ -27,9 +27,10 @@ TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
   moveSeed(0.01);
   ASSERT_TRUE(window_.document().isModified());
   const BoxAnswer answer([](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
-  ASSERT_TRUE(files().mayLeave());
-  EXPECT_FALSE(window_.document().isModified());
-  window_.document().close();
+  EXPECT_EQ(files().mayLeave(), Former::kDiscard);
+  EXPECT_TRUE(window_.document().isModified()) << "until it is left";
+  files().closeSession();
+  EXPECT_FALSE(window_.document().isOpen());
   ASSERT_TRUE(window_.document().open(file_));
   EXPECT_EQ(window_.document().recovery(), nullptr);
   ASSERT_TRUE(rests());
@@ -75,7 +76,7 @@ TEST_F(SessionSavingTest, ExportsOfAnUnnamedSessionAreNotProposedInAHiddenFolder
   EXPECT_FALSE(proposed.contains(QStringLiteral("untitled"))) << proposed.toStdString();
   EXPECT_FALSE(proposed.contains(QStringLiteral("/."))) << proposed.toStdString();
   ASSERT_TRUE(rests());
-  window_.document().discardUntitled();
+  window_.document().close(Former::kDiscard);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 class StartPageTest : public test::WindowTest {
  protected:
-  void TearDown() override { window_.document().discardUntitled(); }
+  void TearDown() override { window_.document().close(Former::kDiscard); }
   StartPage& page() { return window_.frame().start(); }
   SessionFiles& files() { return *window_.findChild<SessionFiles*>(); }
   bool caseIsMade() {
@@ -159,9 +159,34 @@ TEST(LeftWork, IsOfferedAndRecoveredOrDiscarded) {
     EXPECT_EQ(window.document().isUntitled(), recovers);
     EXPECT_EQ(window.document().session().cases.size(), recovers ? 1u : 0u);
     EXPECT_FALSE(window.document().recovery()) << "it is not asked for again";
-    if (recovers) window.document().discardUntitled();
+    if (recovers) window.document().close(Former::kDiscard);
     EXPECT_FALSE(Document::leftUntitled().has_value());
   }
+}
+
+TEST(LeftWork, AnotherSession_NeedsItsOwnFirstClickToBeDeleted) {
+  const test::OwnDataFolder data;
+  for (int i = 0; i < 2; ++i) {
+    Document left;
+    ASSERT_TRUE(left.createUntitled(test::exampleSession()));
+    QTest::qWait(2);  // names hold the time
+  }
+  MainWindow window;
+  window.setQuiet(true);
+  window.show();
+  auto* discard = window.findChild<QPushButton*>(QStringLiteral("discardLeft"));
+  discard->click();
+  window.findChild<QPushButton*>(QStringLiteral("recoverLeft"))->click();
+  ASSERT_TRUE(window.document().isUntitled());
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(window.document().saveAs(folder.path() / "named.boresight.json"));
+  window.workspaces().show(Workspace::kStart);
+  ASSERT_TRUE(discard->isVisibleTo(&window));
+  EXPECT_EQ(discard->text(), QStringLiteral("Discard"));
+  discard->click();
+  EXPECT_TRUE(Document::leftUntitled().has_value());
+  discard->click();
+  EXPECT_FALSE(Document::leftUntitled().has_value());
 }
 
 }  // namespace
