@@ -138,7 +138,8 @@ TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
 /// A stroke was chosen by its row: Remove took another one.
 TEST_F(MaskEditingTest, ChosenStroke_StaysTheSameStroke) {
   drawPolygon({{100.0, 100.0}, {300.0, 100.0}, {300.0, 300.0}});
-  drawPolygon({{10.0, 10.0}, {30.0, 10.0}, {30.0, 30.0}});
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
+  drag({10.0, 10.0}, {30.0, 10.0});
   ASSERT_EQ(strokes(id_).size(), 2u);
   const auto& list = find<QListWidget>("strokes");
   find<QListWidget>("strokes").setCurrentRow(1);
