@@ -2,7 +2,6 @@
 // The desktop program.
 #include <algorithm>
 #include <array>
-#include <clocale>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -118,7 +117,6 @@ int runProgram(int argc, char** argv) {
   const PlainOutput plain_errors(std::cerr);
   ui::prepareApplication(wantsNoDisplay(argc, argv));
   QApplication application(argc, argv);
-  std::setlocale(LC_NUMERIC, "C");  // QApplication takes the user's: numbers keep the point
   ui::nameApplication(application);
   CLI::App app(kDescription, "boresight");
   app.set_version_flag("--version,-v", std::string("boresight ") + sessions::kVersion);

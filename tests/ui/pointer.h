@@ -15,11 +15,15 @@ inline QPointF cornerOfScreenPixel(const QWidget& widget, const QPointF& at) {
   return QPointF(std::floor(at.x() * ratio), std::floor(at.y() * ratio)) / ratio;
 }
 
-/// `button` is the one that is pressed, released, or held while the pointer moves.
+/// `button` is the one that is pressed, released, or held while the pointer moves. As Qt 5 does it,
+/// only the position in the window keeps fractions of a coordinate.
 inline void sendMouse(QWidget& widget, QEvent::Type type, const QPointF& at,
                       Qt::MouseButton button = Qt::LeftButton,
                       Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-  QMouseEvent event(type, at, QPointF(widget.mapToGlobal(QPoint())) + at,
+  const QPointF corner = widget.mapTo(widget.window(), QPoint());
+  const QPointF in_window = corner + at;
+  QMouseEvent event(type, QPointF(in_window.toPoint()) - corner, in_window,
+                    QPointF(widget.mapToGlobal(QPoint())) + at,
                     type == QEvent::MouseMove ? Qt::NoButton : button,
                     type == QEvent::MouseButtonRelease ? Qt::NoButton : button, modifiers);
   QCoreApplication::sendEvent(&widget, &event);

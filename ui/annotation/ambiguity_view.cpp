@@ -66,12 +66,22 @@ void AmbiguityView::showSolution() {
       controller_.solution()->annotations.views.front().annotations;
   area_ = areaOf(annotations);
   const AnnotationLook look = {{}, {}, state_.currentCase()->source.camera, *pose};
-  for (ImageView* view : pictures()) {
-    view->setImage(grayImage(state_.currentCase()->image.view()));
+  showImage();
+  for (ImageView* view : pictures())
     view->setPart(LayerId::kPoints, &Layer::marks, annotationSigns(annotations, look));
-  }
   zoomToAnnotations();
   if (snapper_.mesh()) drawEdges({*pose, *other_pose});
+}
+
+/// Once for a case, without the edges of another.
+void AmbiguityView::showImage() {
+  if (image_of_.lock() == state_.currentCase()) return;
+  image_of_ = state_.currentCase();
+  const QImage gray = grayImage(state_.currentCase()->image.view());
+  for (ImageView* view : pictures()) {
+    view->setImage(gray);
+    view->setPart(LayerId::kAnnotationBand, &Layer::marks, {});
+  }
 }
 
 void AmbiguityView::drawEdges(const std::array<Pose, 2>& camera_from_station) {

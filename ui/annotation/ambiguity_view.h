@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include <QRectF>
@@ -32,6 +33,7 @@ class AmbiguityView : public QWidget {
 
  private:
   void showSolution();
+  void showImage();
   void drawEdges(const std::array<Pose, 2>& camera_from_station);
   void zoomToAnnotations();
   std::array<ImageView*, 2> pictures() const { return {ui_.bestPicture, ui_.otherPicture}; }
@@ -40,6 +42,7 @@ class AmbiguityView : public QWidget {
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;
+  std::weak_ptr<const sessions::LoadedCase> image_of_;  ///< the case in the pictures
   QRectF area_;  ///< a square round the annotations in the image, px
   TaskRunner runner_;
   Ui::AmbiguityView ui_;

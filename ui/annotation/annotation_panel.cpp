@@ -241,6 +241,7 @@ void AnnotationPanel::fillLandmarks() {
 void AnnotationPanel::fillRig() {
   QMenu& menu = *ui_.rig->menu();
   menu.clear();
+  qDeleteAll(menu.findChildren<QMenu*>(QString(), Qt::FindDirectChildrenOnly));  // clear() does not
   const sessions::Session& session = document_.session();
   const sessions::SessionCase* shown = shownCase(document_, state_);
   if (!shown) {

@@ -357,10 +357,10 @@ void AnnotationTool::paint(QPainter& painter, const QRectF& taken) const {
   paintNote(painter, view_.rect(), taken, view_.transform().toWidget(*pointer_), text);
 }
 
-bool AnnotationTool::isOwnKey(const QKeyEvent& event) {
+bool AnnotationTool::isOwnKey(const QKeyEvent& event) const {
   const int key = event.key();
   if ((event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) return key == Qt::Key_Alt;
-  return !arrowOf(key).isNull() || key == Qt::Key_Delete || key == Qt::Key_Tab;
+  return !arrowOf(key).isNull() || key == Qt::Key_Delete || (key == Qt::Key_Tab && aim_.found > 1);
 }
 
 bool AnnotationTool::keyPress(const QKeyEvent& event) {

@@ -69,8 +69,9 @@ class AnnotationTool : public CanvasTool {
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
   bool finishPress();
   void dragTo(const QPointF& pixel);
-  /// Keys that shortcuts of the window must not take while the operator annotates.
-  static bool isOwnKey(const QKeyEvent& event);
+  /// Keys that shortcuts of the window must not take while the operator annotates; Tab where there
+  /// is something else to take, otherwise it leads on to the next widget.
+  bool isOwnKey(const QKeyEvent& event) const;
   bool keyPress(const QKeyEvent& event);
   bool nudge(const QKeyEvent& event);
   void showMode();

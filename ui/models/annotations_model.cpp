@@ -2,11 +2,13 @@
 #include "ui/models/annotations_model.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <QtWidgets>
 
 #include "sessions/text/units.h"
+#include "ui/models/text.h"
 
 namespace boresight::ui {
 namespace {
@@ -87,8 +89,10 @@ std::vector<TableColumn<AnnotationRow>> annotationColumns() {
        tr("Seen minus predicted, downwards; of a line the distance of its second end across the "
           "edge."),
        2, solved([](Solved annotation) { return annotation.residual_px[1]; })},
-      {tr("Sigmas"), tr("Residual in units of its standard deviation; above 3: an outlier."), 1,
-       solved([](Solved annotation) { return annotation.normalized; })},
+      {tr("By scatter"),
+       tr("Residual divided by its standard deviation as the scatter of all residuals shows it, "
+          "whatever sigmas are stated; above 3: an outlier."),
+       1, solved([](Solved annotation) { return annotation.normalized; })},
       {tr("Middle without, mm"),
        tr("Shift of the annotations' centre when the pose is solved without this annotation, in "
           "millimetres."),
@@ -129,10 +133,9 @@ bool change(Mark& annotation, int column, const QVariant& value) {
       annotation.comment = value.toString().toStdString();
       return true;
     case AnnotationsModel::kSigma_px: {
-      bool number = false;
-      const double sigma_px = value.toDouble(&number);
-      if (!number || !(sigma_px > 0.0) || !std::isfinite(sigma_px)) return false;
-      annotation.sigma_px = sigma_px;
+      const std::optional<double> sigma_px = typedNumber(value.toString());
+      if (!sigma_px || !(*sigma_px > 0.0)) return false;
+      annotation.sigma_px = *sigma_px;
       return true;
     }
     default:
@@ -142,7 +145,6 @@ bool change(Mark& annotation, int column, const QVariant& value) {
 
 /// Coordinates can be typed for points whose side is placed.
 bool changeCoordinate(PointPair& point, int column, double value) {
-  if (!std::isfinite(value)) return false;
   using Model = AnnotationsModel;
   const bool in_image = column == Model::kU_px || column == Model::kV_px;
   const bool in_station = column >= Model::kX_mm && column <= Model::kZ_mm;
@@ -331,10 +333,9 @@ bool AnnotationsModel::setData(const QModelIndex& index, const QVariant& value, 
     return true;
   }
   PointPair point = *annotation.point;
-  bool number = false;
-  const double typed = value.toDouble(&number);
+  const std::optional<double> typed = typedNumber(value.toString());
   if (!change(point, index.column(), value) &&
-      !(number && changeCoordinate(point, index.column(), typed)))
+      !(typed && changeCoordinate(point, index.column(), *typed)))
     return false;
   if (!(point == *annotation.point)) Q_EMIT pointEdited(id, point, text);
   return true;

@@ -15,6 +15,12 @@ QString numberText(double value, int decimals) {
   return QString::number(value, 'f', decimals);  // never the locale's comma
 }
 
+std::optional<double> typedNumber(QString text) {
+  bool is_number = false;
+  const double number = text.replace(QLatin1Char(','), QLatin1Char('.')).toDouble(&is_number);
+  return is_number && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
 QString timeText(const std::string& utc) {
   return fromText(utc).replace(QLatin1Char('T'), QLatin1Char(' ')).remove(QLatin1Char('Z'));
 }

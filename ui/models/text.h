@@ -13,6 +13,10 @@ namespace boresight::ui {
 /// For table cells: a fixed number of decimals, always with a dot; empty for NaN.
 QString numberText(double value, int decimals);
 
+/// A finite number as an operator types it, with a point or a comma before the decimals, in any
+/// locale; empty for other texts.
+std::optional<double> typedNumber(QString text);
+
 /// For table cells: "98.7 %", "> 99.9 %"; empty for NaN.
 QString probabilityCell(double probability);
 

@@ -35,6 +35,8 @@ void CheckCards::setChecks(const std::vector<FailedCheck>& failed, bool current)
   std::vector<sessions::Check> checks;
   for (const FailedCheck& each : failed) checks.push_back(each.check);
   if (std::exchange(checks_, checks) != checks_) {
+    // A field that is hidden while it is edited would hand its reason to the new figure.
+    for (QLineEdit* reason : reasons_) reason->blockSignals(true);
     reasons_.clear();
     clearLayoutLater(*cards_);  // the reason that changed the checks may be one of the cards'
     for (const sessions::Check& check : checks_) cards_->addWidget(cardOf(check));

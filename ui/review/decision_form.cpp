@@ -92,7 +92,11 @@ DecisionForm::DecisionForm(ReviewController& controller) : controller_(controlle
   followCase();
 }
 
-void DecisionForm::forgetName() { ui_.decisionName->clear(); }
+void DecisionForm::forgetName() {
+  ui_.decisionName->clear();
+  ui_.decisionComment->clear();
+  drafts_.clear();
+}
 
 sessions::Signature DecisionForm::signature() const {
   return {ui_.decisionName->text().trimmed().toStdString(),
@@ -104,14 +108,11 @@ void DecisionForm::ask(Act act) {
   QLineEdit* missing = who.by.empty()        ? ui_.decisionName
                        : who.comment.empty() ? ui_.decisionComment
                                              : nullptr;
-  if (!missing) {
-    decide(act, true);
-    return endQuestion();
-  }
+  if (!missing && decide(act, true)) return endQuestion();
   question_ = {act, controller_.caseId()};
   ui_.decisionComment->setPlaceholderText(act == Act::kReject ? tr("Why reject this result?")
                                                               : tr("Why validate this pose?"));
-  missing->setFocus();
+  (missing ? missing : ui_.decisionComment)->setFocus();
 }
 
 void DecisionForm::endQuestion() {
@@ -120,33 +121,55 @@ void DecisionForm::endQuestion() {
   Q_EMIT questionEnded();
 }
 
-void DecisionForm::decide(Act act, bool then_next) {
+bool DecisionForm::refuse(const QString& reason) {
+  refusal_ = reason;
+  showReading();
+  return false;
+}
+
+/// A decision that holds is overruled by the second of two equal requests.
+bool DecisionForm::overrules(Act act) {
+  const sessions::ReviewStatus status = controller_.reviewStatus();
+  const bool opposite = status.holds() && (act == Act::kValidate || act == Act::kReject);
+  return opposite && std::exchange(overruling_, act) != act;
+}
+
+bool DecisionForm::decide(Act act, bool then_next) {
   const QString id = fromText(controller_.caseId());
   const QString following = then_next && next_ ? next_() : QString();  // as things are listed now
   const QString reason = controller_.obstacle(act, signature());
-  if (!reason.isEmpty() || !controller_.decide(act, signature())) {
-    refusal_ = reason.isEmpty() ? tr("No decision was stored.") : sentence(reason);
-    return showReading();
-  }
+  if (!reason.isEmpty()) return refuse(sentence(reason));
+  if (overrules(act))
+    return refuse(tr("%1 has a decision by %2. Press or click again to overrule it.")
+                      .arg(id, fromText(controller_.reviewStatus().decision->by)));
+  if (!controller_.decide(act, signature())) return refuse(tr("No decision was stored."));
   ui_.decisionComment->clear();  // the next decision has a comment of its own
   const bool last = then_next && following.isEmpty();
   Q_EMIT decided(doneText(act).arg(id) + (last ? tr(" No other case is undecided.") : QString()));
   if (!following.isEmpty()) Q_EMIT nextRequested(following);
+  return true;
 }
 
-/// A reason is given for one case.
+/// A reason is given for one case, whose draft is kept.
 void DecisionForm::followCase() {
-  if (std::exchange(shown_id_, controller_.caseId()) != controller_.caseId())
-    ui_.decisionComment->clear();
+  const std::string id = controller_.caseId();
+  if (id != shown_id_) {
+    drafts_[std::exchange(shown_id_, id)] = ui_.decisionComment->text();
+    ui_.decisionComment->setText(drafts_[id]);
+  }
   if (question_ && question_->case_id != controller_.caseId()) question_.reset();
   showWhatIsPossible();
 }
 
 bool DecisionForm::eventFilter(QObject* watched, QEvent* event) {
-  const bool escape =
-      event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
-  if (!escape || !question_) return QWidget::eventFilter(watched, event);
-  endQuestion();
+  const bool override = event->type() == QEvent::ShortcutOverride;
+  if (!question_ || !(override || event->type() == QEvent::KeyPress) ||
+      static_cast<QKeyEvent*>(event)->key() != Qt::Key_Escape)
+    return QWidget::eventFilter(watched, event);
+  if (override)
+    event->accept();  // before it stops jobs
+  else
+    endQuestion();
   return true;
 }
 
@@ -159,6 +182,7 @@ ReviewController::Act DecisionForm::nextStep() const {
 
 void DecisionForm::showWhatIsPossible() {
   refusal_.clear();
+  overruling_.reset();
   const sessions::Signature who = signature();
   for (const auto& [act, each] : buttons_) {
     const QString reason = controller_.obstacle(act, who);

@@ -34,8 +34,8 @@ class DecisionForm : public QWidget {
   void setNext(Next next) { next_ = std::move(next); }
   /// Clears the name: the reviewer of another session may be another person.
   void forgetName();
-  /// Called by a key: asks for a missing name and reason, then decides and goes to the next case;
-  /// Escape withdraws the question.
+  /// Called by a key: asks for a missing name and reason, then decides and goes to the next case.
+  /// Until it can be decided the question stays, and with it the focus; Escape withdraws it.
   void ask(ReviewController::Act act);
 
  Q_SIGNALS:
@@ -55,7 +55,10 @@ class DecisionForm : public QWidget {
   };
 
   sessions::Signature signature() const;
-  void decide(Act act, bool then_next);
+  /// Returns false, with the reason shown, where nothing was decided.
+  bool decide(Act act, bool then_next);
+  bool refuse(const QString& reason);
+  bool overrules(Act act);
   void endQuestion();
   void followCase();
   void showWhatIsPossible();
@@ -65,7 +68,9 @@ class DecisionForm : public QWidget {
   ReviewController& controller_;
   Next next_;
   std::optional<Question> question_;
+  std::optional<Act> overruling_;  ///< of a decision that holds; requested once
   std::string shown_id_;
+  std::map<std::string, QString> drafts_;  ///< comments by case
   std::map<Act, QPushButton*> buttons_;
   std::map<Act, QString> tips_;
   QString obstacle_;

@@ -47,10 +47,12 @@ QString inSessionFolder(const Document& document, const QString& name) {
 
 std::filesystem::path askForNewFile(QWidget& window, const QString& title, const QString& proposed,
                                     const QString& filter) {
-  QString file = QFileDialog::getSaveFileName(&window, title, proposed, filter);
-  if (!file.isEmpty() && QFileInfo(file).suffix().isEmpty())
-    file += QLatin1Char('.') + QFileInfo(proposed).suffix();
-  return file.toStdString();
+  QFileDialog dialog(&window, title, QFileInfo(proposed).path(), filter);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QFileInfo(proposed).suffix());  // before it asks whether to replace
+  dialog.selectFile(proposed);
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().value(0).toStdString()
+                                            : std::string();
 }
 
 PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, ExportRunner& exports)

@@ -227,7 +227,7 @@ bool QueueFilter::lessThan(const QModelIndex& left, const QModelIndex& right) co
 }
 
 QueuePanel::QueuePanel(Document& document)
-    : controller_(document, kQueueThumbnail_px * devicePixelRatioF()), filter_(model_) {
+    : controller_(document, kQueueThumbnail_px * qApp->devicePixelRatio()), filter_(model_) {
   ui_.setupUi(this);
   ui_.queueTabs->addTab(tr("Worst first"));
   ui_.queueTabs->addTab(tr("Last two runs"));

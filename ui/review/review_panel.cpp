@@ -95,8 +95,15 @@ LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
     ui_.preset->setItemData(ui_.preset->count() - 1, fromText(preset.help), Qt::ToolTipRole);
   }
   ui_.limits->describeIn(*ui_.limitHelp, tr("Select a limit to read its description."));
-  connect(ui_.preset, &QComboBox::textActivated, &controller_, &ReviewController::setPreset);
-  connect(ui_.secondPerson, &QCheckBox::clicked, &controller_, &ReviewController::setSecondPerson);
+  // A refused edit shows the session's settings again.
+  connect(ui_.preset, &QComboBox::textActivated, this, [this](const QString& preset) {
+    controller_.setPreset(preset);
+    showSettings();
+  });
+  connect(ui_.secondPerson, &QCheckBox::clicked, this, [this](bool asked) {
+    controller_.setSecondPerson(asked);
+    showSettings();
+  });
   connect(ui_.resetAll, &QPushButton::clicked, this, [this] {
     if (const auto* preset = sessions::findCheckPreset(controller_.settings().preset))
       controller_.setLimits(preset->limits);
@@ -234,11 +241,15 @@ void ReviewPanel::showReviewStatus() {
 
 void ReviewPanel::showSources() {
   const QSignalBlocker blocked(ui_.judged);
-  ui_.judged->clear();
-  if (controller_.hasRun()) ui_.judged->addItem(tr("Last run"), static_cast<int>(PoseSource::kRun));
-  if (controller_.hasAnnotations())
-    ui_.judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
-  if (ui_.judged->count() == 0) ui_.judged->addItem(tr("No pose"));
+  const std::array<bool, 2> sources = {controller_.hasRun(), controller_.hasAnnotations()};
+  if (sources != sources_) {  // a list that is open stays
+    sources_ = sources;
+    ui_.judged->clear();
+    if (sources[0]) ui_.judged->addItem(tr("Last run"), static_cast<int>(PoseSource::kRun));
+    if (sources[1])
+      ui_.judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
+    if (ui_.judged->count() == 0) ui_.judged->addItem(tr("No pose"));
+  }
   ui_.judged->setCurrentIndex(
       std::max(0, ui_.judged->findData(static_cast<int>(controller_.source()))));
   ui_.judged->setEnabled(ui_.judged->count() > 1);

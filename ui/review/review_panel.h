@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include <QDialog>
@@ -88,6 +90,7 @@ class ReviewPanel : public QWidget {
   ReviewController controller_;
   ChecksModel model_;
   DecisionForm* decision_ = nullptr;
+  std::optional<std::array<bool, 2>> sources_;  ///< listed: a run's pose, an annotated pose
   Ui::ReviewPanel ui_;
 };
 

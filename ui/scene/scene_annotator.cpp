@@ -22,11 +22,6 @@ namespace {
 /// Pixel (0, 0) of the canvas has its centre at (0.5, 0.5).
 QPointF pixelAt(const QPointF& at) { return at - QPointF(0.5, 0.5); }
 
-bool takesKey(const QKeyEvent& event) {
-  constexpr std::array kKeys = {Qt::Key_Tab, Qt::Key_Escape, Qt::Key_Delete, Qt::Key_Alt};
-  return std::find(kKeys.begin(), kKeys.end(), event.key()) != kKeys.end();
-}
-
 /// magnifiedView() for the camera's image behind the scene, cut to the part that the square shows.
 std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
                                           const QPointF& pixel, double magnification, int side) {
@@ -144,9 +139,14 @@ void SceneAnnotator::setShot(const SceneShot& shot) {
 }
 
 void SceneAnnotator::showMode() {
-  if (places() && canvas_.underMouse()) canvas_.setFocus(Qt::MouseFocusReason);  // for the keys
+  if (places() && canvas_.underMouse()) takeFocus();
   turn_ = 0;
   updateAim();
+}
+
+/// For the keys; what is being typed elsewhere goes on.
+void SceneAnnotator::takeFocus() {
+  if (!isTyping()) canvas_.setFocus(Qt::MouseFocusReason);
 }
 
 void SceneAnnotator::showAnnotations() {
@@ -161,7 +161,7 @@ bool SceneAnnotator::eventFilter(QObject* watched, QEvent* event) {
       hover(*static_cast<QMouseEvent*>(event));
       return false;
     case QEvent::Enter:
-      canvas_.setFocus(Qt::MouseFocusReason);  // for the keys
+      takeFocus();
       return false;
     case QEvent::Leave:
       leave();
@@ -205,9 +205,16 @@ void SceneAnnotator::leave() {
   updateAim();
 }
 
+/// Tab where there is something else to take; otherwise it leads on to the next widget.
+bool SceneAnnotator::takesKey(const QKeyEvent& event) const {
+  if (event.key() == Qt::Key_Tab) return pointer_ && aim_ && aim_->found > 1;
+  constexpr std::array kKeys = {Qt::Key_Escape, Qt::Key_Delete, Qt::Key_Alt};
+  return std::find(kKeys.begin(), kKeys.end(), event.key()) != kKeys.end();
+}
+
 bool SceneAnnotator::pressKey(const QKeyEvent& event) {
   if (!takesKey(event)) return false;
-  if (event.key() == Qt::Key_Tab && pointer_) {
+  if (event.key() == Qt::Key_Tab) {
     ++turn_;
     turned_at_ = *pointer_;
     updateAim();

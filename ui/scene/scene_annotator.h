@@ -112,9 +112,11 @@ class SceneAnnotator : public QObject {
 
  private:
   void showMode();
+  void takeFocus();
   void showAnnotations();
   void hover(const QMouseEvent& event);
   void leave();
+  bool takesKey(const QKeyEvent& event) const;
   bool pressKey(const QKeyEvent& event);
   void updateAim();
   bool completesPoint() const;

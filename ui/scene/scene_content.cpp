@@ -194,6 +194,12 @@ Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
   return frustum;
 }
 
+bool sameMesh(const SceneContent& a, const SceneContent& b) {
+  if (a.one == b.one) return true;
+  return a.one && b.one && sessions::sameScene(a.one->source, b.one->source) &&
+         a.one->scene.view().faces.size() == b.one->scene.view().faces.size();
+}
+
 SceneContent sceneContent(const ViewState& state) {
   SceneContent content;
   content.one = state.currentCase();

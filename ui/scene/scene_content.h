@@ -97,6 +97,9 @@ struct SceneContent {
   MeshView mesh() const { return one ? sessions::stationView(one->scene) : MeshView(); }
 };
 
+/// Whether two contents have the same mesh in the same place, as most edits of a case leave it.
+bool sameMesh(const SceneContent& a, const SceneContent& b);
+
 /// The content at the state's cursor.
 SceneContent sceneContent(const ViewState& state);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <vector>
 
@@ -247,7 +248,7 @@ class PictureCanvas final : public QWidget, public SceneCanvas {
 
   QWidget* widget() override { return this; }
   void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) override {
-    if (!content || !content_ || content->one != content_->one) surfaces_.reset();
+    if (!content || !content_ || !sameMesh(*content, *content_)) surfaces_.reset();
     content_ = std::move(content);
     look_ = look;
     changed();
@@ -265,17 +266,23 @@ class PictureCanvas final : public QWidget, public SceneCanvas {
     QPainter painter(this);
     painter.fillRect(rect(), look_.background);
     if (!content_ || view_.camera.width <= 0) return;
-    if (picture_.isNull()) {
-      const double ratio = devicePixelRatioF();
-      // Surfaces take longest, and do not change during a run.
-      if (!surfaces_ || ratio != ratio_) surfaces_.emplace(*content_, view_, ratio);
-      ratio_ = ratio;
-      picture_ = drawPicture(*content_, look_, view_, backdrop_, ratio, *surfaces_);
+    try {
+      if (picture_.isNull()) draw();
+      painter.drawImage(0, 0, picture_);
+    } catch (const std::bad_alloc&) {
+      surfaces_.reset();
+      painter.drawText(rect(), Qt::AlignCenter, tr("Not enough memory to draw the scene."));
     }
-    painter.drawImage(0, 0, picture_);
   }
 
  private:
+  void draw() {
+    const double ratio = devicePixelRatioF();
+    // Surfaces take longest, and do not change during a run.
+    if (!surfaces_ || ratio != ratio_) surfaces_.emplace(*content_, view_, ratio);
+    ratio_ = ratio;
+    picture_ = drawPicture(*content_, look_, view_, backdrop_, ratio, *surfaces_);
+  }
   void changed() {
     picture_ = QImage();
     update();

@@ -74,13 +74,15 @@ class VtkCanvas final : public SceneCanvas {
   QWidget* widget() override { return widget_; }
 
   void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) override {
-    const bool other_mesh = !content_ || content_->one != content->one;
+    const bool other_mesh = !content_ || !sameMesh(*content_, *content);
+    const bool other_color = look_.mesh_lines != look.mesh_lines;
     content_ = std::move(content);
     look_ = look;
     if (other_mesh) {
       fillMesh();
       sharp_edges_ = sharpEdges(content_->mesh());
     }
+    if (other_mesh || other_color) fillMeshLines();
     fillLines();
     fillPoints();
     applyLook();
@@ -170,11 +172,14 @@ class VtkCanvas final : public SceneCanvas {
     part.mapper->SetResolveCoincidentTopologyToPolygonOffset();
   }
 
-  void fillLines() {
+  void fillMeshLines() {
     ColoredLines lines;
     for (const SceneLine& edge : sharp_edges_) lines.push_back({edge, look_.mesh_lines});
     mesh_lines_.set(lines);
+  }
 
+  void fillLines() {
+    ColoredLines lines;
     for (std::size_t role = 0; role < frusta_.size(); ++role) {
       lines.clear();
       for (const Frustum& frustum : content_->frusta)
@@ -221,7 +226,7 @@ class VtkCanvas final : public SceneCanvas {
     const auto show = [](auto& drawn, bool on) {
       if (!on) drawn.actor->VisibilityOff();
     };
-    show(mesh_lines_, shown.mesh_edges);
+    mesh_lines_.actor->SetVisibility(shown.mesh_edges && !sharp_edges_.empty());
     for (Lines& frustum : frusta_) show(frustum, shown.frusta);
     show(axes_, shown.axes);
     show(trail_, shown.trail);

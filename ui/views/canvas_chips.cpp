@@ -121,6 +121,8 @@ void CanvasChips::placeTitle() {
     title_->setText(title_->fontMetrics().elidedText(title_text_, Qt::ElideRight, room));
     title_->adjustSize();
   }
+  title_->setToolTip(excess > 0 ? title_text_ : QString());
+  title_->setAttribute(Qt::WA_TransparentForMouseEvents, excess <= 0);  // a tip needs the pointer
   title_->move(left, kMargin);
 }
 

@@ -128,12 +128,15 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
 /// Keeps what is chosen where it is still there.
 void CompareView::fill() {
   if (!isVisible()) return;
-  const QString former = box_->currentText();
+  const QStringList listed = choices();
   choices_ = choicesNow();
-  box_->clear();
-  box_->addItems(choices());
-  box_->setCurrentIndex(std::max(0, box_->findText(former)));
-  box_->adjustSize();
+  if (choices() != listed || box_->count() == 0) {  // a list that is open stays
+    const QString former = box_->currentText();
+    box_->clear();
+    box_->addItems(choices());
+    box_->setCurrentIndex(std::max(0, box_->findText(former)));
+    box_->adjustSize();
+  }
   order();
 }
 
@@ -183,7 +186,11 @@ void CompareView::order() {
         picture.lines = linesOf(*picture.loaded_case, picture.camera_from_station);
         return picture;
       },
-      [this](Picture picture) { take(std::move(picture)); });
+      [this](Picture picture) { take(std::move(picture)); },
+      [this](const QString& problem) {  // a run's file may be gone
+        view_->setImage({});
+        view_->setHint(problem);
+      });
 }
 
 void CompareView::take(Picture picture) {
@@ -192,6 +199,7 @@ void CompareView::take(Picture picture) {
   const auto& compared = picture_.loaded_case;
   const bool same = state_.currentCase() == compared;
   following_ = true;  // the operator's part of the image stays
+  view_->setHint(tr("Reading ..."));
   view_->setImage(same ? image_.display().picture() : grayImage(compared->image.view()));
   following_ = false;
   Layer layer = view_->layer(LayerId::kIterationEdges);

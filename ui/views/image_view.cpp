@@ -545,7 +545,11 @@ void ImageView::focusOutEvent(QFocusEvent* event) {
 
 void ImageView::contextMenuEvent(QContextMenuEvent* event) {
   if (image_.isNull()) return event->ignore();
-  Q_EMIT contextMenuRequested(transform_.toPixel(event->pos()), event->globalPos());
+  // The event has whole coordinates; the press before it was at the pointer's tip.
+  const bool pressed = event->reason() == QContextMenuEvent::Mouse &&
+                       (press_ - event->pos()).manhattanLength() < 2.0;
+  Q_EMIT contextMenuRequested(transform_.toPixel(pressed ? press_ : event->pos()),
+                              event->globalPos());
 }
 
 void ImageView::leaveEvent(QEvent*) {

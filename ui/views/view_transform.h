@@ -13,11 +13,15 @@
 namespace boresight::ui {
 
 /// Position of the pointer on a widget, in its coordinates: the centre of the screen pixel at the
-/// pointer's tip. Windowing systems report that pixel's corner, and QMouseEvent::pos() rounds it to
-/// whole coordinates, which on scaled displays are more than a screen pixel apart.
+/// pointer's tip. Windowing systems report that pixel's corner. Qt 5 rounds it to whole coordinates
+/// of the widget, which on scaled displays are more than a screen pixel apart; the position in the
+/// window keeps the fraction.
 inline QPointF pointerPlace(const QMouseEvent& event, const QWidget& widget) {
 #if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
-  const QPointF corner = event.localPos();
+  const QPointF in_window = event.windowPos() - widget.mapTo(widget.window(), QPoint());
+  // An event that was sent on from elsewhere keeps the position in the window it came from.
+  const bool same_window = (in_window - event.localPos()).manhattanLength() <= 1.0;
+  const QPointF corner = same_window ? in_window : event.localPos();
 #else
   const QPointF corner = event.position();
 #endif

@@ -5,9 +5,9 @@
 
 namespace boresight::ui {
 
-/// For the whole program: the wheel never changes a field that does not have the focus, and Ctrl+Z
-/// and Ctrl+Shift+Z apply to the session, not to the field with the focus. Installed as the
-/// application's event filter.
+/// For the whole program: the wheel never changes tabs or a field that does not have the focus,
+/// Ctrl+Z and Ctrl+Shift+Z apply to the session, not to the field with the focus, and a comma in a
+/// field of a number is a point. Installed as the application's event filter.
 class InputGuard : public QObject {
   Q_OBJECT
 

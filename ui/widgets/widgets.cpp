@@ -33,12 +33,14 @@ QString tableText(const QAbstractItemModel& model) {
 }
 
 void showTableMenu(QTableView& table, const QPoint& at) {
-  const QModelIndex index = table.indexAt(at);
+  const QPersistentModelIndex index = table.indexAt(at);  // rows may go while the menu is open
   const auto copy = [](const QString& text) { QGuiApplication::clipboard()->setText(text); };
   QMenu menu(&table);
   if (index.isValid()) {
     menu.addAction(EmptyHint::tr("Copy cell"), [=] { copy(index.data().toString()); });
-    menu.addAction(EmptyHint::tr("Copy row"), [=] { copy(rowText(*index.model(), index.row())); });
+    menu.addAction(EmptyHint::tr("Copy row"), [=] {
+      if (index.isValid()) copy(rowText(*index.model(), index.row()));
+    });
   }
   menu.addAction(EmptyHint::tr("Copy table"), [&] { copy(tableText(*table.model())); });
   menu.addAction(EmptyHint::tr("Fit columns"), [&] { table.resizeColumnsToContents(); });
@@ -165,6 +167,7 @@ void setUpTable(QTableView& table, QAbstractItemModel& model) {
 
 void followRow(QTableView& table, const QModelIndex& row, bool& following) {
   const QScopedValueRollback<bool> from_here(following, true);
+  if (row.row() == table.currentIndex().row()) return;  // where the operator has scrolled stays
   table.setCurrentIndex(row);
   if (row.isValid()) table.scrollTo(row);
 }
@@ -181,6 +184,12 @@ void addRow(QTableWidget& table, const QStringList& texts) {
     if (QTableWidgetItem* head = table.horizontalHeaderItem(column))
       head->setTextAlignment(alignment);
   }
+}
+
+bool isTyping() {
+  const QWidget* focus = QApplication::focusWidget();
+  return focus && focus->testAttribute(Qt::WA_InputMethodEnabled) &&
+         !qobject_cast<const QAbstractItemView*>(focus);  // it has the attribute for its cells
 }
 
 void setTip(QAction& action, const QString& tip) {

@@ -31,8 +31,8 @@ bool hasChosenColumns(const QAbstractItemView& view);
 /// Sets the model of a table and styles it.
 void setUpTable(QTableView& table, QAbstractItemModel& model);
 
-/// Chooses a row and scrolls to it; an invalid index: none. Meanwhile `following` is true, since
-/// the choice is not the operator's.
+/// Chooses a row and scrolls to it if another was chosen; an invalid index: none. Meanwhile
+/// `following` is true, since the choice is not the operator's.
 void followRow(QTableView& table, const QModelIndex& row, bool& following);
 
 /// Appends a row of texts: the first left aligned, the others (figures) right aligned.
@@ -45,6 +45,9 @@ Widget* named(Widget* widget, const char* name, const QString& tip = {}) {
   if (!tip.isEmpty()) widget->setToolTip(tip);
   return widget;
 }
+
+/// Whether the widget with the focus is a field that takes typed text, or an editor of a cell.
+bool isTyping();
 
 /// "Ctrl+R".
 inline QKeySequence keys(const char* text) { return QKeySequence(QLatin1String(text)); }

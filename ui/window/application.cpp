@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/application.h"
 
+#include <clocale>
 #include <exception>
 #include <functional>
 #include <ostream>
@@ -153,6 +154,8 @@ void prepareApplication(bool without_display) {
 }
 
 void nameApplication(QApplication& application) {
+  std::setlocale(LC_NUMERIC, "C");  // QApplication takes the user's: numbers keep the point
+  QLocale::setDefault(QLocale::c());
   QCoreApplication::setOrganizationName(QStringLiteral("Boresight"));
   QCoreApplication::setApplicationName(QStringLiteral("boresight"));
   QCoreApplication::setApplicationVersion(QString::fromUtf8(sessions::kVersion));

@@ -21,7 +21,8 @@ class MainWindow;
 /// (QT_QPA_PLATFORM) has precedence.
 void prepareApplication(bool without_display);
 
-/// Sets name, organisation and style; name and organisation determine where settings are stored.
+/// Sets name, organisation and style, and that numbers have a point in every locale; name and
+/// organisation determine where settings are stored.
 void nameApplication(QApplication& application);
 
 /// Tests the installed program on the included example, without a display: one line per test, then

@@ -21,6 +21,7 @@ namespace {
 
 constexpr QSize kDialogSize(1080, 640);
 constexpr int kTableWidth_px = 640;  ///< holds all columns
+QString pictureTask() { return QStringLiteral("frame"); }
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 /// What a chosen frame shows.
@@ -135,6 +136,7 @@ void SequenceDialog::setUpFrames() {
 }
 
 void SequenceDialog::clearPicture() {
+  pictures_.cancel(pictureTask());
   ui_.sequencePicture->setImage({});
   ui_.sequencePicture->setHint(
       tr("Choose a frame: its image and the outline of its pose are shown here."));
@@ -201,8 +203,8 @@ void SequenceDialog::update() {
   const auto& shown = parts_.state.currentCase();
   setWindowTitle(shown ? tr("Run as a sequence: %1").arg(fromText(shown->source.id))
                        : tr("Run as a sequence"));
-  std::filesystem::path results = chosen_results_;
-  if (results.empty() && !ui_.sequenceImages->text().isEmpty()) {
+  std::filesystem::path results = chosen_results_.value_or(std::filesystem::path());
+  if (!chosen_results_ && !ui_.sequenceImages->text().isEmpty()) {
     std::filesystem::path images = pathOf(ui_.sequenceImages->text()).lexically_normal();
     if (!images.has_filename()) images = images.parent_path();
     results = images.replace_extension(".sqlite");
@@ -224,9 +226,11 @@ void SequenceDialog::update() {
 void SequenceDialog::showProgress() {
   const SequenceRunner& sequence = parts_.sequence;
   const SequenceProgress& now = sequence.progress();
+  const QScrollBar& bar = *ui_.sequenceFrames->verticalScrollBar();
+  const bool at_end = bar.value() == bar.maximum();  // the operator reads no earlier frames
   model_->setRows(sequence.rows(), static_cast<int>(sequence.rows().size()) > 1);
   if (model_->rowCount() == 1) ui_.sequenceFrames->resizeColumnsToContents();
-  if (sequence.isRunning() && model_->rowCount() > 0) ui_.sequenceFrames->scrollToBottom();
+  if (sequence.isRunning() && at_end) ui_.sequenceFrames->scrollToBottom();
   QString text =
       now.of > 0 ? tr("%1 of %2 frames").arg(now.done).arg(now.of) : tr("%1 frames").arg(now.done);
   if (now.lost > 0) text += tr(", %1 lost").arg(now.lost);
@@ -259,7 +263,7 @@ void SequenceDialog::showFrame() {
   const auto& loaded = parts_.sequence.loadedCase();
   if (row < 0 || row >= model_->rowCount() || !loaded) return;
   pictures_.start(
-      QStringLiteral("frame"),
+      pictureTask(),
       [order = parts_.sequence.order(), loaded, frame = model_->at(row)](const std::stop_token&) {
         return pictureOf(order, *loaded, frame);
       },

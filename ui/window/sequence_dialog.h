@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include <QDialog>
 
@@ -47,8 +48,8 @@ class SequenceDialog : public QDialog {
   WindowParts& parts_;
   SequenceModel* model_;
   Ui::SequenceDialog ui_;
-  std::filesystem::path chosen_results_;  ///< empty: next to the images
-  QString problem_;                       ///< why it did not start or continue
+  std::optional<std::filesystem::path> chosen_results_;  ///< otherwise next to the images
+  QString problem_;                                      ///< why it did not start or continue
   TaskRunner pictures_;
 };
 

@@ -40,6 +40,11 @@ QString headingText(const QString& title, const QString& caption) {
       .arg(title.toHtmlEscaped(), caption.toHtmlEscaped());
 }
 
+/// As the desktop writes dates; numbers of the program do not follow it.
+QString shortTime(const QDateTime& time) {
+  return QLocale::system().toString(time, QLocale::ShortFormat);
+}
+
 }  // namespace
 
 StartPage::StartPage(SessionFiles& files, Document& document, QWidget* parent)
@@ -228,9 +233,7 @@ void StartPage::showRecent() {
     open->setAutoRaise(true);
     open->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     open->setIcon(iconOf(Icon::kFolder, &Theme::text2));
-    open->setText(
-        tr("%1    %2")
-            .arg(info.fileName(), QLocale().toString(info.lastModified(), QLocale::ShortFormat)));
+    open->setText(tr("%1    %2").arg(info.fileName(), shortTime(info.lastModified())));
     open->setToolTip(file);
     connect(
         open, &QToolButton::clicked, this, [this, file] { files_.leaveFor(file.toStdString()); },
@@ -254,7 +257,7 @@ void StartPage::showLeft() {
        info.dir().entryInfoList({info.completeBaseName() + QLatin1Char('*')}))
     time = std::max(time, each.lastModified());
   ui_.leftText->setText(tr("<b>Unsaved work from %1</b><br>The program ended before it was saved.")
-                            .arg(QLocale().toString(time, QLocale::ShortFormat)));
+                            .arg(shortTime(time)));
 }
 
 }  // namespace boresight::ui

@@ -18,6 +18,8 @@ struct Remedy {
   Step step;
   const char* cause;   ///< observed cause, for the operator
   bool tried = false;  ///< tried before the run, which still failed
+
+  bool operator==(const Remedy&) const = default;
 };
 
 /// Remedies, the most likely first, those already tried last; none for a run that converged or has

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/workspaces/remedies_panel.h"
 
+#include <utility>
+
 #include <QtWidgets>
 
 #include "ui/state/view_state.h"
@@ -55,15 +57,19 @@ void RemediesPanel::setTried(const std::vector<Step>& tried) {
 }
 
 void RemediesPanel::showRun() {
-  clearLayout(*rows_);
   const auto run = state_.snapshot();
   status_->showRun(run.get());
-  const auto remedies = run ? remediesFor(*run, tried_) : std::vector<Remedy>();
-  if (remedies.empty())
-    rows_->addWidget(captionLabel(run && run->converged()
-                                      ? tr("The run converged: no remedies needed.")
-                                      : tr("Remedies are listed here after a failed run.")));
-  for (const Remedy& remedy : remedies) rows_->addWidget(rowOf(remedy));
+  auto remedies = run ? remediesFor(*run, tried_) : std::vector<Remedy>();
+  const QString none = !remedies.empty() ? QString()
+                       : run && run->converged()
+                           ? tr("The run converged: no remedies needed.")
+                           : tr("Remedies are listed here after a failed run.");
+  if (remedies == remedies_ && none == none_) return;  // a button that is pressed stays
+  remedies_ = std::move(remedies);
+  none_ = none;
+  clearLayout(*rows_);
+  if (!none_.isEmpty()) rows_->addWidget(captionLabel(none_));
+  for (const Remedy& remedy : remedies_) rows_->addWidget(rowOf(remedy));
   rows_->addStretch(1);
 }
 

@@ -34,7 +34,9 @@ class RemediesPanel : public QWidget {
 
   ViewState& state_;
   std::vector<Step> tried_;
-  Banner* status_ = nullptr;  ///< measured and required values, in full
+  std::vector<Remedy> remedies_;  ///< shown
+  QString none_;                  ///< shown instead of them
+  Banner* status_ = nullptr;      ///< measured and required values, in full
   QVBoxLayout* rows_ = nullptr;
 };
 

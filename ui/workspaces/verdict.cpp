@@ -70,9 +70,9 @@ QString progressText(const sessions::LocalizationTrace* trace) {
       .arg(stageName(reached), stageName(next));
 }
 
-Verdict ofFiles(const FilesSituation& files) {
+Verdict ofFiles(const FilesSituation& files, bool case_is_open) {
   if (files.added == 0)
-    return {.head = tr("No case is open."),
+    return {.head = case_is_open ? tr("New case.") : tr("No case is open."),
             .sentence = tr("Add an image, a camera, a mesh and a seed, or open a session."),
             .step = Step::kChooseFiles};
   Verdict verdict{.head = tr("%1 of 4 files added").arg(files.added),
@@ -317,9 +317,10 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
 
 Verdict ofSituation(const Situation& situation) {
   if (!situation.has_case && situation.load_problem.isEmpty() && situation.file_problem.isEmpty())
-    return situation.reading.isEmpty() ? ofFiles(situation.files) : ofReading(situation.reading);
-  if (situation.workspace == Workspace::kStart && situation.files.added > 0)
-    return ofFiles(situation.files);
+    return situation.reading.isEmpty() ? ofFiles(situation.files, false)
+                                       : ofReading(situation.reading);
+  // The open case is not on the screen: nothing is done to it.
+  if (situation.workspace == Workspace::kStart) return ofFiles(situation.files, true);
   if (!situation.has_case) {
     const bool files_found = situation.file_problem.isEmpty();
     return {.tone = VerdictTone::kBad,

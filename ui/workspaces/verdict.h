@@ -31,6 +31,8 @@ struct Verdict {
   std::vector<Step> others = {};  ///< the first of them has a button also in a narrow window
   QString step_text = {};         ///< replaces the step's own text, or empty
   bool plain = false;             ///< the step only stops a job
+
+  bool operator==(const Verdict&) const = default;
 };
 
 /// The files collected for a new case.

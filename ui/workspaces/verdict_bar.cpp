@@ -44,7 +44,7 @@ VerdictBar::VerdictBar(QWidget* parent) : QFrame(parent), more_menu_(new QMenu(t
           [this] { Q_EMIT stepRequested(verdict_.step); });
   ui_.verdictSentence->installEventFilter(this);
   setWarnings({});
-  setVerdict({});
+  showVerdict();
 }
 
 /// Buttons that come and go change the room of the sentence, and not the bar's size.
@@ -56,7 +56,13 @@ bool VerdictBar::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void VerdictBar::setVerdict(const Verdict& verdict) {
+  if (verdict == verdict_) return;  // a button that is pressed, and an open menu, stay
   verdict_ = verdict;
+  showVerdict();
+}
+
+void VerdictBar::showVerdict() {
+  const Verdict& verdict = verdict_;
   const ToneLook& look = kLooks[static_cast<std::size_t>(verdict.tone)];
   setProperty("tone", QLatin1String(look.name));
   const StepInfo step = stepInfo(verdict.step);

@@ -37,6 +37,7 @@ class VerdictBar : public QFrame {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void showVerdict();
   void showOthers();
   void showWarnings();
   void elide();

@@ -228,6 +228,11 @@ TEST_F(AnnotationPanelTest, LinkedCases_AreSolvedTogether) {
     ASSERT_NE(found, actions.end()) << text.toStdString();
     (*found)->trigger();
   };
+  const auto menus = [&menu] { return menu.findChildren<QMenu*>().size(); };
+  Q_EMIT menu.aboutToShow();
+  const auto once = menus();
+  Q_EMIT menu.aboutToShow();
+  EXPECT_EQ(menus(), once) << "an opening leaves none behind";
   trigger(QStringLiteral("not moved"));
   EXPECT_EQ(sessions::casesOfRig(document_.session(), first),
             std::vector<std::string>{"second image"});

@@ -178,6 +178,21 @@ TEST_F(SceneAnnotatingTest, TabCyclesThroughSnapTargets_EscapeDropsTheChoiceThen
   EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
 }
 
+/// A comment was cut off where the pointer drifted over the scene, and Del removed an annotation.
+TEST_F(SceneAnnotatingTest, PointerOverTheScene_LeavesAFieldThatIsTypedInto_TabLeadsOn) {
+  controller_.setMode(PlaceMode::kPoint);
+  QLineEdit field(&view_);
+  field.show();
+  field.setFocus();
+  QEvent enter(QEvent::Enter);
+  QApplication::sendEvent(view_.canvas(), &enter);
+  EXPECT_TRUE(field.hasFocus());
+  view_.canvas()->setFocus();
+  hover({3.0, 3.0});  // off the station: nothing else to take
+  press(Qt::Key_Tab);
+  EXPECT_NE(QApplication::focusWidget(), view_.canvas());
+}
+
 TEST_F(SceneAnnotatingTest, AClickCompletesThePairThatWasBegunInTheImage) {
   controller_.setMode(PlaceMode::kPoint);
   const std::string begun = controller_.placeInImage({10.0, 12.0});

@@ -98,6 +98,10 @@ TEST_F(AnnotationsModelTest, Edits_AreSignalledNotApplied) {
   EXPECT_EQ(edited.pixel, Eigen::Vector2d(11.5, 20.5));
   EXPECT_EQ(name, QStringLiteral("Move p1"));
   EXPECT_EQ(text(0, AnnotationsModel::kU_px), QStringLiteral("10.25"));
+  ASSERT_TRUE(edit(0, AnnotationsModel::kSigma_px, QStringLiteral("0,5")));
+  EXPECT_EQ(edited.sigma_px, 0.5) << "a comma is a point";
+  ASSERT_TRUE(edit(0, AnnotationsModel::kU_px, QStringLiteral("11,75")));
+  EXPECT_EQ(edited.pixel, Eigen::Vector2d(11.75, 20.5));
   ASSERT_TRUE(edit(0, AnnotationsModel::kZ_mm, 299.0));
   EXPECT_DOUBLE_EQ(edited.point_in_station_m->z(), 0.299);
   ASSERT_TRUE(edit(0, AnnotationsModel::kOn, Qt::Unchecked, Qt::CheckStateRole));

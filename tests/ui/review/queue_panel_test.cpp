@@ -215,6 +215,67 @@ TEST_F(QueuePanelTest, EscapeLeavesTheQuestion_RejectTakesTheCommentAndIsUndoneA
   EXPECT_EQ(listed(), QStringList({bad_, good_}));
 }
 
+/// Enter did nothing, the list took the focus, and the next letters were its keys.
+TEST_F(QueuePanelTest, EnterBeforeTheChecksAreComplete_KeepsTheQuestionAndTheDraft) {
+  goToGood();
+  press(Qt::Key_A);
+  answer(QStringLiteral("Ada"));
+  edit([](auto& session) {  // the checks begin again
+    session.review.limits.emplace_back("check.inlier_count", 8.0);
+  });
+  ASSERT_FALSE(review().isCurrent());
+  answer(QStringLiteral("fine"));
+  EXPECT_TRUE(decisions().empty());
+  EXPECT_TRUE(test::has(reading(), "not complete yet"));
+  EXPECT_TRUE(field("decisionComment").hasFocus());
+  QTest::keyClicks(QApplication::focusWidget(), QStringLiteral(" ok"));
+  EXPECT_EQ(window_.cases().caseId(), good_);
+  ASSERT_TRUE(shown(good_));
+  press(Qt::Key_Return);
+  ASSERT_EQ(decisions().size(), 1u) << reading().toStdString();
+  EXPECT_EQ(decisions()[0].comment, "fine ok");
+}
+
+TEST_F(QueuePanelTest, DraftOfAComment_StaysWithItsCase) {
+  field("decisionComment").setText(QStringLiteral("blurred"));
+  goToGood();
+  EXPECT_TRUE(field("decisionComment").text().isEmpty());
+  press(Qt::Key_K);
+  ASSERT_TRUE(shown(bad_));
+  EXPECT_EQ(field("decisionComment").text(), QStringLiteral("blurred"));
+}
+
+TEST_F(QueuePanelTest, DecisionThatHolds_IsOverruledOnlyByTheSecondRequest) {
+  goToGood();
+  press(Qt::Key_A);
+  answer(QStringLiteral("Ada"));
+  answer(QStringLiteral("good"));
+  ASSERT_EQ(decisions().size(), 1u) << reading().toStdString();
+  ASSERT_TRUE(shown(bad_));
+  click(good_);
+  ASSERT_TRUE(shown(good_));
+  table_->setFocus();
+  press(Qt::Key_R);
+  answer(QStringLiteral("blurred"));
+  EXPECT_EQ(decisions().size(), 1u);
+  EXPECT_TRUE(test::has(reading(), "decision by Ada"));
+  press(Qt::Key_Return);
+  ASSERT_EQ(decisions().size(), 2u);
+  EXPECT_EQ(decisions()[1].verdict, sessions::Verdict::kRejected);
+}
+
+/// The window's Escape, which stops jobs, was first.
+TEST_F(QueuePanelTest, EscapeInAQuestion_StopsNoJob) {
+  press(Qt::Key_R);
+  ASSERT_TRUE(field("decisionName").hasFocus());
+  QKeyEvent escape(QEvent::ShortcutOverride, Qt::Key_Escape, Qt::NoModifier);
+  escape.ignore();
+  QCoreApplication::sendEvent(&field("decisionName"), &escape);
+  EXPECT_TRUE(escape.isAccepted());
+  press(Qt::Key_Escape);
+  EXPECT_TRUE(table_->hasFocus());
+}
+
 TEST_F(QueuePanelTest, CaseThatIsStillReadOrShowsAnotherRun_IsNotDecided) {
   const auto obstacle = [this](Act act) { return review().obstacle(act, {"Ada", "blurred"}); };
   EXPECT_EQ(obstacle(Act::kReject), QString());

@@ -202,6 +202,27 @@ TEST_F(ReviewPanelTest, Validation_NeedsANameACommentAndAReasonForEveryFailedChe
   EXPECT_TRUE(test::has(history(), "a small station"));
 }
 
+/// The field was hidden with its card, and with that its editing had ended.
+TEST(CheckCards, ReasonThatIsBeingTyped_IsNotGivenToANewFigure) {
+  CheckCards cards;
+  FailedCheck failed;
+  failed.check.id = "inlier_count";
+  failed.check.title = "Inliers";
+  failed.check.state = CheckState::kFailed;
+  failed.check.figure = 7.0;
+  failed.check.limit = 10.0;
+  cards.setChecks({failed}, true);
+  cards.show();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&cards));
+  QSignalSpy reasons(&cards, &CheckCards::reasonEdited);
+  auto* field = cards.findChild<QLineEdit*>(QStringLiteral("waiver"));
+  field->setFocus();
+  QTest::keyClicks(field, QStringLiteral("a small station"));
+  failed.check.figure = 3.0;
+  cards.setChecks({failed}, true);
+  EXPECT_EQ(reasons.count(), 0);
+}
+
 TEST_F(ReviewPanelTest, ADecisionCanBeTakenBackOrUndone_AndOnlyItsNameStaysInTheForm) {
   openRun();
   EXPECT_FALSE(enabled("takeBack"));
@@ -364,6 +385,10 @@ TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
   EXPECT_EQ(controller.obstacle(ReviewController::Act::kReject, {"Ada", "no"}),
             reader.readOnlyReason());
   EXPECT_FALSE(controller.decide(ReviewController::Act::kReject, {"Ada", "no"}));
+  LimitsDialog limits(controller, nullptr);
+  auto* second = limits.findChild<QCheckBox*>(QStringLiteral("secondPerson"));
+  second->click();
+  EXPECT_FALSE(second->isChecked()) << "the session has not taken it";
 }
 
 TEST_F(ReviewPanelTest, Exports_AreLabelledUnlessValidated) {

@@ -99,6 +99,22 @@ TEST_P(HighDpiTest, ClickToolAndPointer_GiveTheSamePixel) {
   }
 }
 
+/// "Copy pixel" was off by up to a coordinate, with the point of the station.
+TEST_P(HighDpiTest, ContextMenu_IsAtThePixelUnderThePointer) {
+  QSignalSpy moves(&view_, &ImageView::cursorMoved);
+  QSignalSpy menus(&view_, &ImageView::contextMenuRequested);
+  for (const QPoint at : {QPoint(100, 100), QPoint(202, 91)}) {
+    const QPointF place = QPointF(at) / kRatio;
+    moveTo(at);
+    test::sendMouse(view_, QEvent::MouseButtonPress, place, Qt::RightButton);
+    QContextMenuEvent event(QContextMenuEvent::Mouse, place.toPoint(),
+                            view_.mapToGlobal(place.toPoint()));
+    QCoreApplication::sendEvent(&view_, &event);
+    EXPECT_EQ(menus.back()[0].toPointF(), moves.back()[0].toPointF());
+    test::sendMouse(view_, QEvent::MouseButtonRelease, place, Qt::RightButton);
+  }
+}
+
 TEST_P(HighDpiTest, AMarkIsDrawnWhereItsPixelIs) {
   Layer layer;
   layer.id = LayerId::kPoints;

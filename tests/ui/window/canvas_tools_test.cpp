@@ -251,6 +251,17 @@ TEST_F(GesturesTest, EscapeEndsTheTool_WhereverTheFocusIs) {
   EXPECT_EQ(annotation().mode(), PlaceMode::kOff);
 }
 
+/// Text that is typed while no field has the focus.
+TEST_F(GesturesTest, PlainLetters_NeverEditTheSession) {
+  const std::size_t edits = window_.document().editsDone();
+  find<QListWidget>("history").setFocus();
+  for (int key = Qt::Key_A; key <= Qt::Key_Z; ++key)
+    for (const Qt::KeyboardModifier modifier : {Qt::NoModifier, Qt::ShiftModifier})
+      QTest::keyClick(&window_, static_cast<Qt::Key>(key), modifier);
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(window_.document().editsDone(), edits) << window_.document().undoText().toStdString();
+}
+
 TEST_F(GesturesTest, NudgeUnderWay_IsStoredInItsCaseBeforeAnotherIsShown) {
   annotation().select("p1");
   const Eigen::Vector2d before = *annotation().annotations().points[0].pixel;
@@ -407,6 +418,9 @@ TEST_F(RunOnCanvasTest, AClickRaisesTheInspector_AnEarlierRunIsComparedSideBySid
       wait([&] { return list.topLevelItem(0)->text(kChanged) == QStringLiteral("inputs"); }));
   EXPECT_TRUE(test::has(list.topLevelItem(0)->text(kMoved), " mm, "));
   EXPECT_EQ(list.topLevelItem(1)->text(kChanged), QString());
+  list.setCurrentItem(list.topLevelItem(1));
+  window_.state().setSnapshot(window_.state().snapshot());  // as each step of a run does
+  EXPECT_EQ(list.currentItem(), list.topLevelItem(1)) << "what was chosen stays chosen";
   window_.cases().showRun(first);
   ASSERT_TRUE(wait([&] { return window_.state().snapshot()->digest == first; }));
   auto& compare = *window_.findChild<CompareView*>();
@@ -425,6 +439,12 @@ TEST_F(RunOnCanvasTest, AClickRaisesTheInspector_AnEarlierRunIsComparedSideBySid
   EXPECT_LT((centreOf(compare.view()) - centreOf(view_)).manhattanLength(), 1.0);
   Q_EMIT view_.cursorMoved({40.0, 50.0});
   EXPECT_EQ(compare.view().linkedCursor(), QPointF(40.0, 50.0));
+  // A run whose file is gone is said in its canvas, not in a box for each step of a run.
+  std::filesystem::remove(window_.document().session().runs[1].file);
+  const QString message = window_.lastMessage();
+  window_.state().setSnapshot(window_.state().snapshot());
+  ASSERT_TRUE(wait([&] { return compare.view().imageSize().isEmpty(); }));
+  EXPECT_EQ(window_.lastMessage(), message);
 }
 
 }  // namespace

@@ -135,6 +135,34 @@ TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
   EXPECT_TRUE(strokes(id_).empty());
 }
 
+/// A stroke was chosen by its row: Remove took another one.
+TEST_F(MaskEditingTest, ChosenStroke_StaysTheSameStroke) {
+  drawPolygon({{100.0, 100.0}, {300.0, 100.0}, {300.0, 300.0}});
+  QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
+  drag({10.0, 10.0}, {30.0, 10.0});
+  ASSERT_EQ(strokes(id_).size(), 2u);
+  const auto& list = find<QListWidget>("strokes");
+  find<QListWidget>("strokes").setCurrentRow(1);
+  sessions::MaskStrokes rest = {strokes(id_)[1]};
+  sessions::SessionCase one = *window_.document().session().findCase(id_);
+  one.ignore_strokes = rest;
+  ASSERT_TRUE(window_.document().edit(sessions::withCase(window_.document().session(), one),
+                                      QStringLiteral("Remove the first")));
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(list.currentRow(), 0);
+  one.ignore_strokes.clear();
+  ASSERT_TRUE(window_.document().edit(sessions::withCase(window_.document().session(), one),
+                                      QStringLiteral("Remove the other")));
+  ASSERT_TRUE(window_.document().undo());
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(list.currentRow(), -1);
+  find<QListWidget>("strokes").setCurrentRow(0);
+  window_.cases().chooseCase(QStringLiteral("second"));
+  ASSERT_TRUE(
+      wait([&] { return window_.state().currentCase()->source.id == "second" && resting(); }));
+  EXPECT_EQ(list.currentRow(), -1);
+}
+
 TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
   drawPolygon({{100.0, 100.0}, {300.0, 100.0}, {300.0, 300.0}});
   ASSERT_EQ(strokes(id_).size(), 1u);

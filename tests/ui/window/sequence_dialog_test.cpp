@@ -64,6 +64,18 @@ TEST_F(SequenceDialogTest, Folder_GivesAStoredRowAFrame_WhichShowsItsImageAndOut
   EXPECT_TRUE(edges.style.visible);
 }
 
+TEST_F(SequenceDialogTest, FieldOfResults_CanBeEmptied) {
+  dialog_->setImages(test::approachFolder() / "frames");
+  auto& results = find<QLineEdit>("sequenceResults");
+  results.setFocus();
+  results.selectAll();
+  QTest::keyClick(&results, Qt::Key_Delete);
+  EXPECT_EQ(results.text(), QString());
+  EXPECT_FALSE(find<QPushButton>("sequenceRun").isEnabled());
+  QTest::keyClicks(&results, QStringLiteral("/x.sqlite"));
+  EXPECT_EQ(results.text(), QStringLiteral("/x.sqlite"));
+}
+
 TEST_F(SequenceDialogTest, Cancel_KeepsTheFramesAndRunGoesOn) {
   std::filesystem::create_directory(folder_.path() / "long");
   for (int i = 0; i < 12; ++i)

@@ -70,6 +70,26 @@ TEST_F(SessionSavingTest, CaseOfAKnownName_IsNeverReplacedWithoutAnAnswer) {
   window_.document().save();
 }
 
+/// The question was about the name as it was typed, without the suffix.
+TEST_F(SessionSavingTest, ExportUnderANameWithoutSuffix_AsksBeforeItReplacesAFile) {
+  folder_.write("points.json", "kept");
+  bool asked = false;
+  const BoxAnswer answer([&asked](QMessageBox& box) {
+    asked = true;
+    box.reject();
+  });
+  const test::ModalAnswer<QFileDialog> names([&asked, this](QFileDialog& dialog) {
+    if (asked) return dialog.reject();
+    auto* name = dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+    name->setText(QString::fromStdString((folder_.path() / "points").string()));
+    QTest::keyClick(name, Qt::Key_Return);
+  });
+  const auto proposed = QString::fromStdString((folder_.path() / "annotations.json").string());
+  EXPECT_EQ(askForNewFile(window_, QStringLiteral("Export"), proposed, QStringLiteral("(*.json)")),
+            std::filesystem::path());
+  EXPECT_TRUE(asked);
+}
+
 TEST_F(SessionSavingTest, ExportsOfAnUnnamedSessionAreNotProposedInAHiddenFolder) {
   ASSERT_TRUE(window_.document().createUntitled(test::exampleSession()));
   const QString proposed = inSessionFolder(window_.document(), QStringLiteral("pose.json"));

@@ -6,6 +6,7 @@
 #include "tests/support/example_run.h"
 #include "tests/ui/window_test.h"
 #include "ui/style/theme.h"
+#include "ui/style/tokens.h"
 #include "ui/workspaces/remedies.h"
 #include "ui/workspaces/verdict_bar.h"
 
@@ -32,6 +33,33 @@ Situation ready() {
   situation.has_case = true;
   situation.run = RunState::kReady;
   return situation;
+}
+
+/// A press that spans an update of the bar was no click; the menu of others was emptied.
+TEST(VerdictBar, EqualVerdict_LeavesItsButtons) {
+  VerdictBar bar;
+  bar.resize(900, kVerdictHeight);
+  bar.show();
+  Verdict verdict{.head = QStringLiteral("Failed."),
+                  .step = Step::kWiderSearch,
+                  .others = {Step::kNudgeSeed, Step::kAnnotate, Step::kInputs}};
+  bar.setVerdict(verdict);
+  const auto buttons = bar.findChildren<QPushButton*>();
+  bar.setVerdict(verdict);
+  EXPECT_EQ(bar.findChildren<QPushButton*>(), buttons);
+  verdict.others = {Step::kInputs};
+  bar.setVerdict(verdict);
+  EXPECT_NE(bar.findChildren<QPushButton*>(), buttons);
+}
+
+/// Its button acted on a case that is not on the screen.
+TEST(Verdict, OnStart_IsAboutTheNewCase) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kStart;
+  EXPECT_TRUE(tells(situation, Tone::kPlain, "New case.", "Add an image", Step::kChooseFiles));
+  situation.files.added = 2;
+  situation.files.next = QStringLiteral("mesh");
+  EXPECT_TRUE(tells(situation, Tone::kPlain, "2 of 4 files added", "", Step::kChooseFiles));
 }
 
 /// Three sigma of this size, where 0.4 mm are required.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/annotate/mask_panel.h"
 
+#include <algorithm>
+
 #include <QtWidgets>
 
 #include "sessions/session/session.h"
@@ -47,10 +49,27 @@ void MaskPanel::showTool() {
 
 void MaskPanel::setCase(const sessions::SessionCase* session_case, const MaskStrokes& named,
                         int cases_of_camera) {
+  const int row = session_case ? rowInNext(*session_case) : -1;
   case_ = session_case ? std::optional(*session_case) : std::nullopt;
   named_ = named;
   cases_of_camera_ = cases_of_camera;
-  showStrokes();
+  showStrokes(row);
+}
+
+/// Row of the chosen stroke, whatever its name, in the next state of the same case; -1 where it has
+/// gone.
+int MaskPanel::rowInNext(const sessions::SessionCase& next) const {
+  if (!case_ || case_->id != next.id || chosen() < 0) return -1;
+  const auto row = static_cast<std::size_t>(chosen());
+  const MaskStroke& stroke = case_->ignore_strokes[row];
+  const MaskStrokes& strokes = next.ignore_strokes;
+  const auto is_it = [&stroke](MaskStroke other) {
+    other.name = stroke.name;
+    return other == stroke;
+  };
+  if (row < strokes.size() && is_it(strokes[row])) return chosen();
+  const auto found = std::ranges::find_if(strokes, is_it);
+  return found == strokes.end() ? -1 : static_cast<int>(found - strokes.begin());
 }
 
 void MaskPanel::setIgnored(std::int64_t ignored, std::int64_t pixels) {
@@ -69,15 +88,14 @@ void MaskPanel::setIgnored(std::int64_t ignored, std::int64_t pixels) {
           .arg(file));
 }
 
-void MaskPanel::showStrokes() {
-  const int row = ui_.strokes->currentRow();
+void MaskPanel::showStrokes(int row) {
   {
     const QSignalBlocker blocker(ui_.strokes);
     ui_.strokes->clear();
     if (case_)
       for (const MaskStroke& stroke : case_->ignore_strokes)
         ui_.strokes->addItem(QString::fromStdString(sessions::strokeText(stroke)));
-    ui_.strokes->setCurrentRow(std::min(row, ui_.strokes->count() - 1));
+    ui_.strokes->setCurrentRow(row);
   }
   ui_.takeStroke->menu()->clear();
   for (const MaskStroke& stroke : named_)

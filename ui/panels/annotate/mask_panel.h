@@ -39,7 +39,8 @@ class MaskPanel : public QWidget {
 
  private:
   void showTool();
-  void showStrokes();
+  int rowInNext(const sessions::SessionCase& next) const;
+  void showStrokes(int row);
   void updateButtons();
   void nameChosen();
   void removeChosen();

@@ -13,6 +13,8 @@
 namespace boresight::ui {
 namespace {
 
+QString calibrationTask() { return QStringLiteral("calibration"); }
+
 /// Pixels with three decimals; coefficients with four digits.
 QString figureText(const sessions::CalibratedValue& value, double figure) {
   return value.unit.empty() ? QString::number(figure, 'g', 4) : numberText(figure, 3);
@@ -61,16 +63,19 @@ CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRun
       QHeaderView::ResizeToContents);
   connect(ui_.calibrate, &QPushButton::clicked, this, &CalibrationPanel::calibrate);
   connect(ui_.use, &QPushButton::clicked, this, &CalibrationPanel::use);
+  connect(&document_, &Document::opened, this, [this] { forget(purpose()); });
   state_.onChange(ViewChange::kCase, this, [this] {
     const std::string shown = shownCaseId(document_, state_);
-    if (shown != case_id_ || !calibration_) forget(purpose());
+    if (case_id_.empty() || shown != case_id_) forget(purpose());
   });
   forget(purpose());
 }
 
 /// Drops the calibration: it is of another camera, or there is none.
 void CalibrationPanel::forget(const QString& reason) {
+  tasks_.cancel(calibrationTask());
   calibration_.reset();
+  case_id_.clear();
   ui_.calibrationParameters->setRowCount(0);
   ui_.use->setEnabled(false);
   ui_.calibrate->setEnabled(state_.currentCase() != nullptr);
@@ -85,9 +90,10 @@ void CalibrationPanel::calibrate() {
   const sessions::SessionCase* shown = shownCase(document_, state_);
   if (shown == nullptr) return;
   forget(tr("Calibrating ..."));
+  case_id_ = shown->id;
   ui_.calibrate->setEnabled(false);
   tasks_.start(
-      QStringLiteral("calibration"),
+      calibrationTask(),
       [session = document_.session(), id = shown->id, source, free](const std::stop_token&) {
         return sessions::calibrateCameraOf(session, id, source, free);
       },
@@ -98,6 +104,7 @@ void CalibrationPanel::calibrate() {
 
 void CalibrationPanel::take(const std::string& case_id, const Camera& before,
                             const sessions::CameraCalibration& calibration) {
+  if (shownCaseId(document_, state_) != case_id) return forget(purpose());
   const auto values = sessions::calibratedValues(before, calibration);
   forget(summaryText(calibration, values));
   calibration_ = calibration;

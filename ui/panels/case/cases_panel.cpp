@@ -150,9 +150,16 @@ void CasesPanel::buildTable() {
 }
 
 void CasesPanel::setRows(std::vector<CaseRow> rows) {
+  const bool same_cases = std::ranges::equal(rows, model_.rows(), {}, &CaseRow::id, &CaseRow::id);
   showing_ = true;
   model_.setRows(std::move(rows));
   showing_ = false;
+  if (!same_cases) fitColumns();
+  setCurrent(current_);
+}
+
+/// For other cases only: widths that the operator has chosen stay while these run.
+void CasesPanel::fitColumns() {
   ui_.cases->resizeColumnsToContents();
   whole_case_ = ui_.cases->columnWidth(CasesModel::kCase);
   // Headers would keep room for the sign of the order in every column.
@@ -162,7 +169,6 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   for (int column = CasesModel::kNormal_mm; column <= CasesModel::kRotation_deg; ++column)
     ui_.cases->setColumnWidth(column, error_width);
   fitCaseColumn();
-  setCurrent(current_);
 }
 
 /// States are shown in full; a usual name may hide all error columns but the first, a longer one

@@ -93,6 +93,7 @@ class CasesPanel : public QWidget {
  private:
   void buildTable();
   void applyFilter();
+  void fitColumns();
   void fitCaseColumn();
   QString chosen() const;
   void chooseRow(const QModelIndex& current);

@@ -39,14 +39,18 @@ PartsPanel::PartsPanel(Document& document, ViewState& state) : document_(documen
 }
 
 void PartsPanel::showCase() {
+  Shown now;
+  now.editable = document_.isEditable();
+  if (const sessions::SessionCase* shown = shownCase(document_, state_))
+    for (const auto& part : shown->parts) now.parts.push_back(part.source);
+  if (shown_ == now) return;  // a list that is open stays
+  shown_ = std::move(now);
   filling_ = true;
   ui_.parts->setRowCount(0);
-  if (const sessions::SessionCase* shown = shownCase(document_, state_)) {
-    ui_.parts->setRowCount(static_cast<int>(shown->parts.size()));
-    for (int row = 0; row < ui_.parts->rowCount(); ++row)
-      addPart(row, shown->parts[static_cast<std::size_t>(row)].source, document_.isEditable());
-    ui_.parts->resizeColumnsToContents();
-  }
+  ui_.parts->setRowCount(static_cast<int>(shown_->parts.size()));
+  for (int row = 0; row < ui_.parts->rowCount(); ++row)
+    addPart(row, shown_->parts[static_cast<std::size_t>(row)], shown_->editable);
+  ui_.parts->resizeColumnsToContents();
   filling_ = false;
 }
 
@@ -90,6 +94,7 @@ void PartsPanel::change(int row, const sessions::PartState& state) {
         } catch (const std::exception& error) {
           Q_EMIT failed(QString::fromUtf8(error.what()));
         }
+        shown_.reset();  // also what was refused
         showCase();
       },
       Qt::QueuedConnection);

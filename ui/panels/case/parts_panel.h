@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <QWidget>
 
 #include "ui_parts_panel.h"
@@ -27,6 +30,14 @@ class PartsPanel : public QWidget {
  private:
   enum Column { kPresent, kName, kRole, kFrame, kMesh };
 
+  /// What the table shows.
+  struct Shown {
+    std::vector<sessions::PartSource> parts = {};
+    bool editable = false;
+
+    bool operator==(const Shown&) const = default;
+  };
+
   void showCase();
   void addPart(int row, const sessions::PartSource& part, bool editable);
   void change(int row, const sessions::PartState& state);
@@ -34,6 +45,7 @@ class PartsPanel : public QWidget {
   Document& document_;
   ViewState& state_;
   bool filling_ = false;
+  std::optional<Shown> shown_;
   Ui::PartsPanel ui_;
 };
 

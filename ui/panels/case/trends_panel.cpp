@@ -96,6 +96,7 @@ void TrendsPanel::follow() {
   for (const auto& each : current.cases)
     if (const sessions::RunRecord* run = current.lastRunOf(each->id))
       wanted.first.push_back(each->id + ' ' + run->digest);
+  if (!wanted.first.empty()) wanted.second.push_back(document_.file());
   if (wanted == read_) return;
   read_ = std::move(wanted);
   ui_.trendNote->setText(tr("Reading %n run(s) ...", "", static_cast<int>(read_.first.size())));

@@ -52,7 +52,7 @@ class TrendsPanel : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  /// The shown case ids with digests of their last runs, and the earlier sessions.
+  /// The shown case ids with digests of their last runs, and the sessions, the shown one last.
   using Source = std::pair<std::vector<std::string>, std::vector<std::filesystem::path>>;
   struct Trend {
     std::vector<sessions::TrendPoint> points;

@@ -54,15 +54,18 @@ void ConfigurationPanel::setCaseFeatureSize(double feature_size_m) {
 }
 
 void ConfigurationPanel::setProfile(const QString& profile) {
-  setOptions(profile, optionsOf(profile));
-  Q_EMIT optionsEdited(profile_, options_);
+  request(profile, optionsOf(profile));
+}
+
+/// The session answers with what it has; where it refuses, the options before show again.
+void ConfigurationPanel::request(const QString& profile, const LocalizerOptions& options) {
+  Q_EMIT optionsEdited(profile, options);
+  setOptions(profile_, options_);
 }
 
 void ConfigurationPanel::change(const std::string& name, const std::string& value) {
   LocalizerOptions changed = options_;
-  if (!ui_.options->apply(changed, name, value)) return;
-  setOptions(profile_, changed);
-  Q_EMIT optionsEdited(profile_, options_);
+  if (ui_.options->apply(changed, name, value)) request(profile_, changed);
 }
 
 QStringList ConfigurationPanel::differences() const {
@@ -71,11 +74,14 @@ QStringList ConfigurationPanel::differences() const {
   LocalizerOptions current = options_;
   if (!(current.templates.feature_size_m > 0.0))
     current.templates.feature_size_m = case_feature_size_m_;
+  const std::vector<sessions::OptionDescription> before = sessions::listOptions(run->lastOptions());
+  const std::vector<sessions::OptionDescription> now = sessions::listOptions(current);
   QStringList names;
-  for (const auto& option : sessions::listOptions(run->lastOptions()))
-    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), current))
-      if (name == option.name)
-        names.append(tr("%1 (was %2)").arg(fromText(name), fromText(valueText(option, value))));
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (before[i].value != now[i].value)
+      names.append(tr("%1 (was %2, now %3)")
+                       .arg(fromText(now[i].name), fromText(valueText(before[i], before[i].value)),
+                            fromText(valueText(now[i], now[i].value))));
   return names;
 }
 

@@ -37,6 +37,7 @@ class ConfigurationPanel : public QWidget {
  private:
   void change(const std::string& name, const std::string& value);
   void setProfile(const QString& profile);
+  void request(const QString& profile, const LocalizerOptions& options);
   void showStale();
 
   ViewState& view_;

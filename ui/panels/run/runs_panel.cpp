@@ -19,6 +19,11 @@ constexpr const char* kPinnedKey = "pinnedRuns";
 
 enum RunColumn { kPin, kTime, kStatus, kChanged, kMoved, kColumns };
 
+constexpr int kMostPins = 500;
+
+/// Of this program and of others that run meanwhile.
+QStringList storedPins() { return QSettings().value(QLatin1String(kPinnedKey)).toStringList(); }
+
 /// How the run differs from a plain one; empty for a plain run.
 QString kindOf(const sessions::RunRecord& run) {
   if (run.together) return RunsPanel::tr("together with other cameras");
@@ -29,7 +34,7 @@ QString kindOf(const sessions::RunRecord& run) {
 }  // namespace
 
 RunsPanel::RunsPanel(Document& document, ViewState& state) : document_(document), state_(state) {
-  pinned_ = QSettings().value(QLatin1String(kPinnedKey)).toStringList();
+  pinned_ = storedPins();
   ui_.setupUi(this);
   connect(ui_.runs, &QTreeWidget::itemActivated, this, [this] { Q_EMIT openRequested(chosen()); });
   connect(ui_.runs, &QWidget::customContextMenuRequested, this, &RunsPanel::showMenu);
@@ -44,7 +49,6 @@ std::string RunsPanel::chosen() const {
 }
 
 void RunsPanel::fill() {
-  ui_.runs->clear();
   const std::string shown_case = shownCaseId(document_, state_);
   std::vector<sessions::RunRecord> runs;
   std::ranges::copy_if(document_.session().runs, std::back_inserter(runs),
@@ -55,6 +59,15 @@ void RunsPanel::fill() {
   };
   std::ranges::reverse(runs);
   std::ranges::stable_partition(runs, is_pinned);
+  Listed now{runs, pinned_, {}};
+  if (const auto& snapshot = state_.snapshot())
+    for (const sessions::RunRecord& run : runs)
+      if (run.digest == snapshot->digest) now.shown = run.digest;
+  if (now == listed_) return;
+  const bool same_shown = now.shown.empty() || now.shown == listed_.shown;
+  const std::string selected = same_shown ? chosen() : now.shown;
+  listed_ = std::move(now);
+  ui_.runs->clear();
   for (const sessions::RunRecord& run : runs) {
     auto* item = new QTreeWidgetItem(ui_.runs);
     item->setText(kPin, is_pinned(run) ? QStringLiteral("\u25C6") : QString());
@@ -62,9 +75,9 @@ void RunsPanel::fill() {
     item->setText(kStatus, fromText(run.status).replace(QLatin1Char('_'), QLatin1Char(' ')));
     item->setText(kChanged, kindOf(run));
     item->setData(kTime, kDigest, fromText(run.digest));
-    if (!state_.snapshot() || state_.snapshot()->digest != run.digest) continue;
+    if (run.digest == selected) ui_.runs->setCurrentItem(item);
+    if (run.digest != listed_.shown) continue;
     for (int i = 0; i < kColumns; ++i) item->setFont(i, boldFont(font()));
-    ui_.runs->setCurrentItem(item);
   }
   showLines();
 }
@@ -108,7 +121,9 @@ void RunsPanel::showEvent(QShowEvent* event) {
 
 void RunsPanel::pin(const std::string& digest) {
   const QString text = fromText(digest);
+  pinned_ = storedPins();
   if (!pinned_.removeOne(text)) pinned_ << text;
+  while (pinned_.size() > kMostPins) pinned_.removeFirst();
   QSettings().setValue(QLatin1String(kPinnedKey), pinned_);
   fill();
 }

@@ -37,6 +37,15 @@ class RunsPanel : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
+  /// What the list shows.
+  struct Listed {
+    std::vector<sessions::RunRecord> runs = {};
+    QStringList pinned = {};
+    std::string shown = {};  ///< digest of the run in the views
+
+    bool operator==(const Listed&) const = default;
+  };
+
   void fill();
   void askForLines(const std::vector<sessions::RunRecord>& runs);
   void showLines();
@@ -46,7 +55,8 @@ class RunsPanel : public QWidget {
 
   Document& document_;
   ViewState& state_;
-  QStringList pinned_;                        ///< digests
+  QStringList pinned_;  ///< digests
+  Listed listed_;
   std::vector<sessions::RunRecord> read_;     ///< runs of the lines, in the order of the session
   std::vector<sessions::RunListLine> lines_;  ///< of `read_`; empty until they are read
   TaskRunner reader_;                         ///< only the newest list is used

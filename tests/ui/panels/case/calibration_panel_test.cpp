@@ -40,6 +40,17 @@ TEST_F(CalibrationPanelTest, FindsALongerLensAndUsesItForItsCases) {
   EXPECT_EQ(window_.document().session().cases[0]->camera.fx, before);
 }
 
+TEST_F(CalibrationPanelTest, ResultForAnotherCase_IsNotShown) {
+  open(test::sessionOfALongerLens(8));
+  window_.dock(QStringLiteral("calibration"))->show();
+  find<QPushButton>("calibrate").click();
+  const std::string other = window_.document().session().cases[1]->id;
+  window_.cases().chooseCase(QString::fromStdString(other));
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase()->source.id == other && resting(); }));
+  EXPECT_EQ(find<QTableWidget>("calibrationParameters").rowCount(), 0);
+  EXPECT_FALSE(find<QPushButton>("use").isEnabled());
+}
+
 TEST_F(CalibrationPanelTest, SaysWhyItCannot) {
   openExample();
   calibrate();

@@ -66,6 +66,28 @@ TEST_F(CasesPanelTest, OpenCaseAndChangedStates_AreShownWithoutAskingForACase) {
   EXPECT_EQ(opened.count(), 0);
 }
 
+/// Each iteration of a batch scrolled to the shown case and fitted the columns.
+TEST_F(CasesPanelTest, ChangedStates_LeaveScrollingAndWidths) {
+  std::vector<CaseRow> rows;
+  for (int i = 0; i < 100; ++i) {
+    rows.push_back(rowNamed("os", CaseState::kNew));
+    rows.back().id += QString::number(1000 + i);
+  }
+  panel_.setRows(rows);
+  panel_.setCurrent(rows[0].id);
+  QScrollBar& bar = *table_->verticalScrollBar();
+  bar.setValue(bar.maximum());
+  const int place = bar.value();
+  ASSERT_GT(place, 0);
+  table_->setColumnWidth(CasesModel::kNormal_mm, 123);
+  rows[5].state = CaseState::kRunning;
+  panel_.setRows(rows);
+  EXPECT_EQ(bar.value(), place);
+  EXPECT_EQ(table_->columnWidth(CasesModel::kNormal_mm), 123);
+  panel_.setCurrent(rows[1].id);
+  EXPECT_LT(bar.value(), place) << "another case is scrolled to";
+}
+
 TEST_F(CasesPanelTest, RunAll_RunsTheListedCases_ThoseOfAWordOrOfAState) {
   QTest::keyClicks(panel_.findChild<QLineEdit*>(), QStringLiteral("os"));
   QSignalSpy ran(&panel_, &CasesPanel::runAllRequested);

@@ -55,6 +55,13 @@ TEST_F(PartsPanelTest, ShowsTheStatesAndChangesThemAsEdits) {
   EXPECT_EQ(qobject_cast<QComboBox*>(table().cellWidget(0, 2))->currentIndex(), 0);
 }
 
+TEST_F(PartsPanelTest, EditOfAnotherInput_LeavesAnOpenList) {
+  const QWidget* box = table().cellWidget(1, 2);
+  moveSeed(0.001);
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(table().cellWidget(1, 2), box);
+}
+
 TEST_F(PartsPanelTest, NarrowPanel_HidesColumnsInsteadOfScrolling) {
   PartsPanel panel(window_.document(), window_.state());
   const auto& shown = *panel.findChild<QTableWidget*>(QStringLiteral("parts"));

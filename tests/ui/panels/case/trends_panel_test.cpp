@@ -29,6 +29,9 @@ TEST_F(TrendsPanelTest, ListsTheConvergedRunsOfThisAndEarlierSessions_NamesAnUnr
   EXPECT_EQ(point.case_id, window_.cases().caseId().toStdString());
   EXPECT_GT(point.figures[6], 0.0) << "the residual";
   EXPECT_EQ(panel().findChild<DoublePlot*>()->leftCount(), 1);
+  ASSERT_TRUE(window_.document().saveAs(folder_.path() / "renamed.boresight.json"));
+  ASSERT_TRUE(shows(1));
+  EXPECT_EQ(panel().model().at(0).session, window_.document().file()) << "a double click opens it";
   const auto earlier = folder_.path() / "sol11.boresight.json";
   sessions::writeSessionFile(earlier, window_.document().session());
   panel().setEarlier({earlier});

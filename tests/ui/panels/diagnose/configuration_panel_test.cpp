@@ -91,6 +91,14 @@ TEST_F(ConfigurationPanelTest, AValueOutOfRangeIsRefusedWithItsRange) {
   EXPECT_EQ(panel_.options().loop.max_iterations, LoopOptions().max_iterations);
 }
 
+TEST_F(ConfigurationPanelTest, EditThatTheSessionRefuses_DoesNotStayInThePanel) {
+  type<QSpinBox>(QStringLiteral("loop.max_iterations"), QStringLiteral("12"));
+  EXPECT_EQ(edits_, 1) << "nobody has taken it";
+  EXPECT_EQ(panel_.options().loop.max_iterations, LoopOptions().max_iterations);
+  EXPECT_EQ(find(QStringLiteral("loop.max_iterations")).data().toInt(),
+            LoopOptions().max_iterations);
+}
+
 TEST_F(ConfigurationPanelTest, ANumberIsTypedInFull) {
   type<QLineEdit>(QStringLiteral("converged_rotation"), QStringLiteral("0.0123456789"));
   EXPECT_EQ(options_.loop.converged_rotation_rad, 0.0123456789);
@@ -154,7 +162,8 @@ TEST_F(ConfigurationPanelTest, SaysThatTheShownRunIsStale_NotForTheCasesFeatureS
   EXPECT_FALSE(stale_->isVisible());
   panel_.setOptions(QStringLiteral("default"), sevenIterations());
   EXPECT_TRUE(stale_->isVisible());
-  EXPECT_EQ(panel_.differences(), QStringList{QStringLiteral("loop.max_iterations (was 10)")});
+  EXPECT_EQ(panel_.differences(),
+            QStringList{QStringLiteral("loop.max_iterations (was 10, now 7)")});
   QSignalSpy asked(&panel_, &ConfigurationPanel::runAgainRequested);
   QTest::mouseClick(panel_.findChild<QToolButton*>(QStringLiteral("bannerAction")), Qt::LeftButton);
   EXPECT_EQ(asked.count(), 1);
