@@ -6,10 +6,8 @@
 #include <cstddef>
 #include <numeric>
 
-#include <opencv2/calib3d.hpp>
-
-#include "core/pnp/correspondence.h"
 #include "sessions/annotation/annotations_on_image.h"
+#include "sessions/annotation/first_poses.h"
 #include "sessions/annotation/geometry_meter.h"
 
 namespace boresight::sessions {
@@ -23,84 +21,17 @@ constexpr double kMedianOfRayleigh = 1.1774;
 constexpr double kAmbiguousRatio = 5.0;       ///< of both poses' rms, or the other one is ruled out
 constexpr double kAmbiguousFloor_px = 1.0;    ///< rms below this is never ruled out
 constexpr double kAmbiguousAngle_rad = 0.02;  ///< nearer than this it is the same pose
-constexpr std::size_t kFewestPosePoints = 4;
-constexpr double kFirstThreshold_px = 8.0;
-constexpr int kMostSamples = 5000;
-constexpr double kConfidence = 0.999;  ///< of having drawn a sample without outliers
 
-std::vector<Correspondence> correspondencesOf(const AnnotatedView& view) {
-  std::vector<Correspondence> correspondences;
-  for (const PointPair& point : view.annotations.points)
-    if (point.used())
-      correspondences.push_back({*point.point_in_station_m, *point.pixel, point.sigma_px});
-  return correspondences;
-}
-
-/// Poses, camera from station, by OpenCV's solvers from the points of a view that agree: P3P with
-/// RANSAC, then SQPnP, and IPPE for points in a plane, which may have two poses. Bearings are those
-/// of the camera's centre in the plane z = 1: exact enough for a start, also where the pupil moves.
-std::vector<Pose> consensus(const AnnotatedView& view, double threshold_px) {
-  std::vector<cv::Point3d> points;
-  std::vector<cv::Point2d> places;
-  for (const Correspondence& item : correspondencesOf(view)) {
-    Ray ray;
-    if (!isUsable(item) || !unprojectRay(view.camera, item.pixel, ray)) continue;
-    const Eigen::Vector3d& point = item.point_in_station_m;
-    points.emplace_back(point.x(), point.y(), point.z());
-    places.emplace_back(ray.direction.x() / ray.direction.z(),
-                        ray.direction.y() / ray.direction.z());
-  }
-  const cv::Mat plane = cv::Mat::eye(3, 3, CV_64F);
-  std::vector<cv::Mat> rotations;
-  std::vector<cv::Mat> translations;
-  std::vector<cv::Point3d> agreed;
-  std::vector<cv::Point2d> seen;
-  std::vector<Pose> poses;
-  const auto vector = [](const cv::Mat& m) {
-    return Eigen::Vector3d(m.at<double>(0), m.at<double>(1), m.at<double>(2));
+/// By the points of the view that has the most of them, rig from station.
+std::vector<Pose> startsOf(std::span<const AnnotatedView> views) {
+  const auto count = [](const AnnotatedView& view) {
+    return std::ranges::count_if(view.annotations.points, &PointPair::used);
   };
-  const auto add = [&](cv::SolvePnPMethod method) {
-    cv::solvePnPGeneric(agreed, seen, plane, cv::noArray(), rotations, translations, false, method);
-    for (std::size_t i = 0; i < rotations.size(); ++i) {
-      const Pose pose{rotationExp(vector(rotations[i])), vector(translations[i])};
-      if (pose.isFinite()) poses.push_back(pose);
-    }
-  };
-  try {
-    cv::Mat rotation;
-    cv::Mat translation;
-    std::vector<int> inliers;
-    if (points.size() < kFewestPosePoints ||
-        !cv::solvePnPRansac(points, places, plane, cv::noArray(), rotation, translation, false,
-                            kMostSamples, static_cast<float>(threshold_px / view.camera.fx),
-                            kConfidence, inliers, cv::SOLVEPNP_AP3P) ||
-        inliers.size() < kFewestPosePoints)
-      return {};
-    for (const int i : inliers) {
-      agreed.push_back(points[static_cast<std::size_t>(i)]);
-      seen.push_back(places[static_cast<std::size_t>(i)]);
-    }
-    add(cv::SOLVEPNP_SQPNP);
-    add(cv::SOLVEPNP_IPPE);
-  } catch (const cv::Exception&) {
-    return poses;  // not in a plane; or on a line, or in one place
-  }
-  return poses;
-}
-
-/// Where least squares over annotations may begin: poses that agree with most points of the view
-/// that has the most of them. None where no view has four, or none agree.
-std::vector<Pose> firstPoses(std::span<const AnnotatedView> views) {
-  const auto count = [](const AnnotatedView& view) { return correspondencesOf(view).size(); };
   const auto most = std::ranges::max_element(views, {}, count);
-  if (most == views.end() || count(*most) < kFewestPosePoints) return {};
-  // Careful annotations first; then any pose at all, for annotations that are far out.
-  for (const double threshold_px : {kFirstThreshold_px, 10.0 * kFirstThreshold_px, 1e4}) {
-    std::vector<Pose> poses = consensus(*most, threshold_px);
-    for (Pose& pose : poses) pose = most->camera_from_rig.inverse() * pose;
-    if (!poses.empty()) return poses;
-  }
-  return {};
+  if (most == views.end()) return {};
+  std::vector<Pose> poses = firstPoses(*most);
+  for (Pose& pose : poses) pose = most->camera_from_rig.inverse() * pose;
+  return poses;
 }
 
 /// The other pose that a plane of annotations may have: its normal mirrored about the line of sight
@@ -203,7 +134,7 @@ std::optional<Fit> bestFit(std::span<const AnnotatedView> views,
     const std::optional<Fit> fit = fitFrom(views, annotations, *start, options.robust);
     if (fit && (!best || cost(*fit) < cost(*best))) best = fit;
   };
-  for (const Pose& pose : firstPoses(views)) consider(pose);
+  for (const Pose& pose : startsOf(views)) consider(pose);
   consider(options.rig_from_station_guess);
   if (best) consider(mirroredPose(views, best->rig_from_station));
   return best;
@@ -239,7 +170,7 @@ double normalizedResidual(const AnnotationResidual& annotation, const Matrix6d& 
   return largest;
 }
 
-double pixelsPerRadian(const Camera& camera) { return 0.5 * (camera.fx + camera.fy); }
+double pixelsPerRadian(const Camera& camera) { return 0.5 * (camera.fx + std::abs(camera.fy)); }
 
 /// `inverse`: of the fit's information, (J' W J)^-1.
 void describeAnnotations(std::span<const AnnotatedView> views,

@@ -74,10 +74,10 @@ struct AnnotationsResult {
 };
 
 /// The pose of the rig by least squares over all enabled annotations, weighted by sigma (optionally
-/// robust), with the full camera models. It starts from P3P with RANSAC where a view has four
-/// points, and from the guess. Deterministic: the same annotations give the same digits. Robust:
-/// iteratively reweighted least squares with Tukey's biweight, c = 4.685 (Huber and Ronchetti
-/// 2009), its scale the median of the residuals' norms.
+/// robust), with the full camera models. It starts from firstPoses() where a view has four points,
+/// and from the guess; the best result counts. Deterministic: the same annotations give the same
+/// digits. Robust: iteratively reweighted least squares with Tukey's biweight, c = 4.685 (Huber and
+/// Ronchetti 2009), its scale the median of the residuals' norms.
 AnnotationsResult solveAnnotations(std::span<const AnnotatedView> views,
                                    const SolveAnnotationsOptions& options);
 

@@ -14,6 +14,7 @@
 
 #include "core/base/random.h"
 #include "core/pnp/normal_equations.h"
+#include "tests/support/coverage.h"
 
 namespace boresight {
 namespace {
@@ -163,6 +164,106 @@ TEST(ErrorGroups, CovarianceCoversIndependentAndSharedErrors) {
   const double shared = meanSquaredError(0.3, 4);
   EXPECT_GT(shared, 2.0);
   EXPECT_LT(shared, 6.6) << "larger would be a covariance that is too small";
+}
+
+/// Shared errors of one draw.
+struct SharedErrors {
+  std::array<double, 64> of_cell_px{};
+  std::array<double, 16> of_side_px{};
+  Eigen::Vector3d common_px = Eigen::Vector3d::Zero();  ///< outwards, along x, along y
+
+  SharedErrors(double cell_px, double side_px, double all_px, Random& random) {
+    for (double& error : of_cell_px) error = cell_px * random.normal();
+    for (double& error : of_side_px) error = side_px * random.normal();
+    for (double& error : common_px) error = all_px * random.normal();
+  }
+  double at_px(const GroupedError& error) const {
+    const std::array<int, 3> groups = ErrorGroups::groupsOf(error);
+    return of_cell_px[static_cast<std::size_t>(groups[0])] +
+           of_side_px[static_cast<std::size_t>(groups[1])] + common_px[0] +
+           common_px.tail<2>().dot(error.normal);
+  }
+};
+
+/// A pose by Tukey's weights, and its covariance, as the refinement computes them.
+struct RobustFit {
+  Vector6d pose = Vector6d::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
+
+  explicit RobustFit(const std::vector<Sample>& samples) {
+    std::array<std::byte, 16384> memory{};
+    Arena arena(memory);
+    ErrorGroups groups;
+    EXPECT_EQ(groups.create(arena), Status::kOk);
+    ErrorSums sums;
+    for (int round = 0; round < 5; ++round) {
+      std::vector<float> sizes;
+      for (const Sample& sample : samples)
+        sizes.push_back(static_cast<float>(std::abs(sample.residual_px - sample.row.dot(pose))));
+      const double cut_px = kTukey * robustScale_px(sizes);
+      Matrix6d information = Matrix6d::Zero();
+      Vector6d gradient = Vector6d::Zero();
+      groups.clear();
+      sums = ErrorSums();
+      for (const Sample& sample : samples) {
+        const double residual_px = sample.residual_px - sample.row.dot(pose);
+        const double square = residual_px * residual_px / (cut_px * cut_px);
+        if (square >= 1.0) continue;
+        const double weight = (1.0 - square) * (1.0 - square);
+        information += weight * sample.row * sample.row.transpose();
+        gradient += weight * residual_px * sample.row;
+        sums.curvature +=
+            (1.0 - square) * (1.0 - 5.0 * square) * sample.row * sample.row.transpose();
+        groups.add(sample.error, residual_px, weight * sample.row);
+      }
+      pose += information.ldlt().solve(gradient);
+    }
+    groups.sum(sums);
+    EXPECT_TRUE(sums.covariance(covariance));
+  }
+};
+
+/// Errors of all components in units of their sigmas, by 1000 draws of one set of edges.
+std::array<std::vector<double>, 6> poseErrors(double noise_px, double cell_px, double side_px,
+                                              double all_px, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Sample> samples;
+  for (int i = 0; i < 400; ++i) {
+    Sample sample = randomSample(random);
+    // Motions of a plane seen from the front: across, turned, nearer; and two tilts.
+    const Eigen::Vector2d at = sample.error.place - Eigen::Vector2d(0.5, 0.5);
+    const Eigen::Vector2d& normal = sample.error.normal;
+    sample.row << normal, normal.x() * at.y() - normal.y() * at.x(), normal.dot(at),
+        4.0 * normal.dot(at) * at.x(), 4.0 * normal.dot(at) * at.y();
+    samples.push_back(sample);
+  }
+  std::array<std::vector<double>, 6> errors;
+  for (int draw = 0; draw < 1000; ++draw) {
+    const SharedErrors shared(cell_px, side_px, all_px, random);
+    for (Sample& sample : samples)
+      sample.residual_px = noise_px * random.normal() + shared.at_px(sample.error);
+    const RobustFit fit(samples);
+    for (int i = 0; i < 6; ++i)
+      errors[static_cast<std::size_t>(i)].push_back(fit.pose[i] / std::sqrt(fit.covariance(i, i)));
+  }
+  return errors;
+}
+
+/// The sigmas of a localized pose.
+TEST(ErrorGroups, Sigmas_HoldIndependentSharedAndCommonErrors) {
+  struct Errors {
+    double noise_px, cell_px, side_px, all_px;
+  };
+  std::uint64_t seed = 7;
+  for (const auto& [noise_px, cell_px, side_px, all_px] :
+       {Errors{0.3, 0.0, 0.0, 0.0}, Errors{0.3, 0.15, 0.0, 0.0}, Errors{0.3, 0.0, 0.1, 0.0},
+        Errors{0.1, 0.0, 0.0, ErrorGroups::kCommonOffset_px}})
+    for (const std::vector<double>& component :
+         poseErrors(noise_px, cell_px, side_px, all_px, seed++)) {
+      SCOPED_TRACE(testing::Message()
+                   << noise_px << " " << cell_px << " " << side_px << " " << all_px);
+      test::expectGaussianCoverage(component, true);
+    }
 }
 
 TEST(ErrorGroups, TwoViews_AddTheirErrorsInOneFrame) {

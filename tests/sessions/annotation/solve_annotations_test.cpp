@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <opencv2/calib3d.hpp>
@@ -325,6 +326,58 @@ TEST(SolveAnnotations, SigmasOfFourPoints_HoldTheErrors) {
   }
   ASSERT_GT(errors.size(), 1000u);
   test::expectGaussianCoverage(errors, true);
+}
+
+/// The least squares from the truth are the least of all.
+TEST(SolveAnnotations, FourPointsWithoutAGuess_HaveTheLeastSquares) {
+  Random random = randomFor("SolveAnnotations.FourPoints.Global");
+  for (int draw = 0; draw < 200; ++draw) {
+    const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 4, 0, 1.0);
+    SolveAnnotationsOptions options;
+    options.rig_from_station_guess = scene.camera_from_station;
+    EXPECT_LE(solved(scene.views()).rms_px, solved(scene.views(), options).rms_px + 1e-6) << draw;
+  }
+}
+
+/// Six points, or a plane of five, `size_m` wide, at a distance, seen about 32 px wide.
+AnnotatedScene distantScene(Random& random, double size_m, double distance_m, bool flat) {
+  AnnotatedScene scene;
+  scene.view.name = "camera";
+  scene.view.camera = test::makePinhole(1280, 960, 32.0 * distance_m / size_m);
+  scene.camera_from_station = test::randomCameraFromStation(random, distance_m);
+  scene.camera_from_station.translation_m = {0.3 * size_m, -0.2 * size_m, distance_m};
+  if (flat)
+    scene.camera_from_station.rotation =
+        rotationExp({0.7, 0.2, 0.0}) * rotationExp({0.0, 0.0, random.uniform(-kPi, kPi)});
+  const std::array<Eigen::Vector3d, 6> corners = {{{-1.0, -1.0, 0.0},
+                                                   {1.0, -0.9, 0.0},
+                                                   {0.8, 1.0, 0.0},
+                                                   {-1.0, 0.7, 0.0},
+                                                   {0.1, 0.2, 0.0},
+                                                   {0.2, -0.3, 0.9}}};
+  for (std::size_t i = 0; i < (flat ? 5u : 6u); ++i)
+    EXPECT_TRUE(addPoint(scene.view, scene.camera_from_station, 0.5 * size_m * corners[i], 0.0, 1.0,
+                         random));
+  return scene;
+}
+
+TEST(SolveAnnotations, FarAndSmallObjects_AreSolvedWithoutAGuess) {
+  Random random = randomFor("SolveAnnotations.Far");
+  struct Place {
+    double size_m, distance_m;
+  };
+  for (const auto& [size_m, distance_m] :
+       {Place{0.2, 1.0}, Place{0.2, 36.0}, Place{0.2, 40.0}, Place{0.2, 300.0}, Place{2.0, 400.0},
+        Place{10.0, 5000.0}, Place{2e-4, 1e-3}, Place{2e-4, 0.01}})
+    for (const bool flat : {false, true}) {
+      const AnnotatedScene scene = distantScene(random, size_m, distance_m, flat);
+      const AnnotationsSolution solution = solved(scene.views());
+      EXPECT_LT(solution.rms_px, 1e-5) << size_m << " " << distance_m << " " << flat;
+      EXPECT_LT((solution.rig_from_station.translation_m - scene.camera_from_station.translation_m)
+                    .norm(),
+                1e-4 * distance_m)
+          << size_m << " " << distance_m << " " << flat;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(
