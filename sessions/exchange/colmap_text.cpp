@@ -185,8 +185,14 @@ class Line {
 };
 
 std::vector<std::string> linesOf(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) &&
+      std::filesystem::exists(std::filesystem::path(file).replace_extension(".bin"), error))
+    throw InputError(file,
+                     "no such file, but the binary one: convert the model to text with colmap "
+                     "model_converter --output_type TXT");
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxBytes);
-  std::istringstream stream{std::string(asText(bytes))};
+  std::istringstream stream{std::string(unmarkedText(file, bytes))};
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
@@ -194,6 +200,38 @@ std::vector<std::string> linesOf(const std::filesystem::path& file) {
 
 bool isCommentOrBlank(const std::string& line) {
   return line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos;
+}
+
+/// InputError when COLMAP's comment, such as "# Number of images: 6, ...", states another number.
+void requireStated(const std::filesystem::path& file, const std::vector<std::string>& lines,
+                   const std::string& item, std::size_t found) {
+  const std::string begin = "# Number of " + item + "s: ";
+  for (const std::string& line : lines) {
+    if (!line.starts_with(begin)) continue;
+    const std::string text =
+        line.substr(begin.size(), line.find_first_of(", \r", begin.size()) - begin.size());
+    const auto stated = numberIn<std::size_t>(text);
+    if (stated && *stated != found)
+      throw InputError(file, "states " + countText(static_cast<std::int64_t>(*stated), item) +
+                                 ", but has " + std::to_string(found) +
+                                 ": it may be truncated, or its comment is outdated");
+  }
+}
+
+/// Refuses a line behind an image's that is not its points: the next image in it would be lost.
+void requirePoints(const std::filesystem::path& file, int number, const std::string& text) {
+  std::istringstream words(text);
+  std::string x;
+  std::string y;
+  std::string point;
+  while (words >> x) {
+    const bool whole = words >> y >> point && numberIn<double>(x) && numberIn<double>(y) &&
+                       numberIn<std::int64_t>(point);
+    if (!whole)
+      throw InputError(file, "line " + std::to_string(number),
+                       "is not a list of points (x y id): write an empty line after each image "
+                       "without points");
+  }
 }
 
 Camera readCameraLine(Line& line) {
@@ -222,8 +260,9 @@ Camera readCameraLine(Line& line) {
 
 std::map<int, Camera> readCameras(const std::filesystem::path& file) {
   std::map<int, Camera> cameras;
+  const std::vector<std::string> lines = linesOf(file);
   int number = 0;
-  for (const std::string& text : linesOf(file)) {
+  for (const std::string& text : lines) {
     ++number;
     if (isCommentOrBlank(text)) continue;
     Line line(file, number, text);
@@ -231,6 +270,7 @@ std::map<int, Camera> readCameras(const std::filesystem::path& file) {
     if (!cameras.emplace(id, readCameraLine(line)).second)
       line.fail("camera " + std::to_string(id) + " is given twice");
   }
+  requireStated(file, lines, "camera", cameras.size());
   return cameras;
 }
 
@@ -306,8 +346,9 @@ std::vector<PosedImage> readColmapText(const std::filesystem::path& folder) {
     images.push_back(readImageLine(line, cameras));
     if (!ids.insert(images.back().id).second)
       line.fail("image " + std::to_string(images.back().id) + " is given twice");
-    ++i;  // its points, which may be none
+    if (++i < lines.size()) requirePoints(file, static_cast<int>(i) + 1, lines[i]);
   }
+  requireStated(file, lines, "image", images.size());
   return images;
 }
 

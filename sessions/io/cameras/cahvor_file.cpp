@@ -27,7 +27,7 @@ class Entries {
  public:
   explicit Entries(const std::filesystem::path& file) : file_(file) {
     const auto bytes = readFileBytes(file, kMaxBytes);
-    std::istringstream lines(std::string(bytes.begin(), bytes.end()));
+    std::istringstream lines{std::string(unmarkedText(file, bytes))};
     std::string key;
     for (std::string line; std::getline(lines, line);) {
       const std::string_view text = trimmed(std::string_view(line).substr(0, line.find('#')));
@@ -178,7 +178,8 @@ CameraFile readCahvorCamera(const std::filesystem::path& file) {
   if (!camera) throw InputError(file, kVectorsCannotProject);
   if (!read.internal_covariance.isZero(0.0)) {
     const Eigen::VectorXd sigma = read.internal_covariance.diagonal().cwiseSqrt();
-    const double focal = std::max(sigma(0) / camera->camera.fx, sigma(2) / camera->camera.fy);
+    const double focal =
+        std::max(sigma(0) / std::abs(camera->camera.fx), sigma(2) / std::abs(camera->camera.fy));
     camera->calibration_sigma =
         CalibrationSigma{std::min(focal, kMaxFocalSigma),
                          std::min(std::max(sigma(1), sigma(3)), kMaxPrincipalPointSigma_px)};

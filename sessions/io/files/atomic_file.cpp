@@ -8,12 +8,14 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "sessions/io/files/errors.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -33,12 +35,21 @@ std::string writeReason(int error) {
   throw OutputError(file, writeReason(error));
 }
 
-/// Where a chain of symbolic links ends, so that renaming replaces the file and not the link.
+/// The number in the name of an open file of this process, such as /proc/self/fd/1.
+std::optional<int> descriptorIn(const fs::path& name) {
+  const fs::path folder = name.parent_path();
+  if (folder != "/proc/self/fd" && folder != "/dev/fd") return std::nullopt;
+  return numberIn<int>(name.filename().string());
+}
+
+/// Where a chain of symbolic links ends, so that renaming replaces the file and not the link; at an
+/// open file of this process, as /dev/stdout does, it ends at its name.
 fs::path linkTarget(const fs::path& file) {
   constexpr int kMaxLinks = 40;
   fs::path target = file;
   for (int i = 0; i < kMaxLinks; ++i) {
     std::error_code error;
+    if (descriptorIn(target)) return target;
     if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
     const fs::path next = fs::read_symlink(target, error);
     if (error) fail(file, error.value());
@@ -55,6 +66,12 @@ class OpenFile {
     descriptor_ = ::open(name_.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(reported_, errno);
     temporary_ = temporary;
+  }
+  /// Another name of an open file: its place to write is shared with the standard output.
+  OpenFile(fs::path reported, int descriptor) : reported_(std::move(reported)) {
+    std::cout.flush();
+    descriptor_ = ::dup(descriptor);
+    if (descriptor_ < 0) fail(reported_, errno);
   }
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
@@ -131,7 +148,8 @@ struct Target {
   fs::path file;               ///< not a link
   std::optional<mode_t> mode;  ///< of a file that exists
 
-  bool isDevice() const { return mode && !S_ISREG(*mode); }
+  std::optional<int> descriptor() const { return descriptorIn(file); }
+  bool isDevice() const { return descriptor() || (mode && !S_ISREG(*mode)); }
 };
 
 Target targetOf(const fs::path& file, FileUse use) {
@@ -139,7 +157,7 @@ Target targetOf(const fs::path& file, FileUse use) {
   requireNoInput(file, use);
   Target target{linkTarget(file), std::nullopt};
   struct stat existing {};
-  if (::stat(target.file.c_str(), &existing) != 0) return target;
+  if (target.descriptor() || ::stat(target.file.c_str(), &existing) != 0) return target;
   if (S_ISDIR(existing.st_mode)) fail(file, EISDIR);
   // Renaming would replace a write-protected file, which only asks the folder.
   if (::access(target.file.c_str(), W_OK) != 0) fail(file, errno);
@@ -151,6 +169,11 @@ Target targetOf(const fs::path& file, FileUse use) {
 
 void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
   const Target target = targetOf(file, use);
+  if (const auto descriptor = target.descriptor()) {
+    OpenFile open(file, *descriptor);
+    open.write(bytes);
+    return open.finish();
+  }
   if (target.isDevice()) {
     OpenFile device(file, target.file, 0, false);
     device.write(bytes);
@@ -178,6 +201,7 @@ void moveIntoPlace(const fs::path& finished, const fs::path& file, FileUse use) 
   ::close(descriptor);
   if (error != 0) fail(file, error);
   const fs::path target = linkTarget(file);
+  if (descriptorIn(target)) throw OutputError(file, "it is no file: give the name of one");
   if (::rename(finished.c_str(), target.c_str()) != 0) fail(file, errno);
   syncFolder(folderOf(target));
   noteOutput(target, use);

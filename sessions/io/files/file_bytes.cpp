@@ -51,6 +51,8 @@ Inputs& inputs() {
   return all;
 }
 
+constexpr std::size_t kSubstituteBytes = 64;  ///< that show a pointer or a page
+
 constexpr const char* kSpecial = "is a pipe, a socket or a device: give a regular file";
 
 std::string readReason(int error) {
@@ -59,6 +61,17 @@ std::string readReason(int error) {
   if (error == ENXIO) return kSpecial;  // a socket
   if (error == EACCES) return "permission denied";
   return std::strerror(error);
+}
+
+/// InputError for what a download without Git LFS, or one that was refused, leaves in place of the
+/// file.
+void requireNoSubstitute(const fs::path& file, std::span<const std::uint8_t> bytes) {
+  const auto text = withoutMark(asText(bytes.first(std::min(bytes.size(), kSubstituteBytes))));
+  if (text.starts_with("version https://git-lfs.github.com/spec/"))
+    throw InputError(file, "is a Git LFS pointer instead of the file: run git lfs pull");
+  const std::string begin = lowerCase(trimmed(text));
+  if (begin.starts_with("<!doctype html") || begin.starts_with("<html"))
+    throw InputError(file, "is an HTML page instead of the file: download the file itself");
 }
 
 /// An open regular file. Opening does not wait for the other end of a pipe.
@@ -82,10 +95,10 @@ class RegularFile {
 
   /// The first `count` bytes, or as many as there are; InputError when there is none.
   std::vector<std::uint8_t> beginning(std::size_t count) const {
-    std::vector<std::uint8_t> bytes(count);
+    std::vector<std::uint8_t> bytes(std::max(count, kSubstituteBytes));
     std::size_t used = 0;
-    while (used < count) {
-      const ssize_t got = ::read(number_, bytes.data() + used, count - used);
+    while (used < bytes.size()) {
+      const ssize_t got = ::read(number_, bytes.data() + used, bytes.size() - used);
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) throw InputError(file_, readReason(errno));
       if (got == 0) break;
@@ -93,6 +106,8 @@ class RegularFile {
     }
     if (used == 0) throw InputError(file_, "the file is empty");
     bytes.resize(used);
+    requireNoSubstitute(file_, bytes);
+    bytes.resize(std::min(used, count));
     return bytes;
   }
 
@@ -151,6 +166,23 @@ std::vector<std::uint8_t> readBeginning(const std::filesystem::path& file, std::
 
 std::string_view asText(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string_view withoutMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
+std::string_view unmarkedText(const fs::path& file, std::string_view bytes) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("\xFF\xFE"sv) || bytes.starts_with("\xFE\xFF"sv) ||
+      bytes.starts_with("\0\0\xFE\xFF"sv))
+    throw InputError(file, "is UTF-16 or UTF-32 text: save it as UTF-8");
+  return withoutMark(bytes);
+}
+
+std::string_view unmarkedText(const fs::path& file, std::span<const std::uint8_t> bytes) {
+  return unmarkedText(file, asText(bytes));
 }
 
 std::string sha256Text(std::span<const std::uint8_t> bytes) {

@@ -39,8 +39,9 @@ void requireNoInput(const std::filesystem::path& output, FileUse use = FileUse::
 inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
 /// The whole file, read once, so that the hashed bytes are the parsed bytes. InputError when it is
-/// missing, a folder, a pipe or a device, not readable, empty, or longer than `max_bytes`. From
-/// then on no output replaces it.
+/// missing, a folder, a pipe or a device, not readable, empty, longer than `max_bytes`, or one that
+/// a download left in its place (a Git LFS pointer, an HTML page). From then on no output replaces
+/// it.
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes,
                                         FileUse use = FileUse::kInput);
 
@@ -48,6 +49,15 @@ std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::
 std::vector<std::uint8_t> readBeginning(const std::filesystem::path& file, std::size_t count);
 
 std::string_view asText(std::span<const std::uint8_t> bytes);
+
+/// The text without the byte order mark of UTF-8.
+std::string_view withoutMark(std::string_view text);
+
+/// The text of a file without the UTF-8 byte order mark that spreadsheets and editors put in front.
+/// InputError when its mark is that of UTF-16 or UTF-32.
+std::string_view unmarkedText(const std::filesystem::path& file, std::string_view bytes);
+std::string_view unmarkedText(const std::filesystem::path& file,
+                              std::span<const std::uint8_t> bytes);
 
 /// SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256Text(std::span<const std::uint8_t> bytes);

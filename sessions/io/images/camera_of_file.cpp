@@ -7,9 +7,25 @@
 
 namespace boresight::sessions {
 
+namespace {
+
+/// Camera files of ROS, Kalibr and OpenCV differ in the names and the meaning of their values.
+void requireOwnFormat(const std::filesystem::path& file) {
+  const std::string ending = lowerCase(file.extension().string());
+  if (ending == ".yaml" || ending == ".yml" || ending == ".xml")
+    throw InputError(file,
+                     "a camera is read from a camera.json, a .cahvor file or a labelled image: "
+                     "write its values into a camera.json (formats.md)");
+}
+
+}  // namespace
+
 CameraFile readCameraFile(const std::filesystem::path& file) {
   if (isCahvorFile(file)) return readCahvorCamera(file);
-  if (!hasImageLabel(file)) return readCameraJson(file);
+  if (!hasImageLabel(file)) {
+    requireOwnFormat(file);
+    return readCameraJson(file);
+  }
   const ImageLabel label = readImageLabel(file);
   if (!label.camera) throw InputError(file, label.camera_remark);
   return *label.camera;

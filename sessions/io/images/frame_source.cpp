@@ -60,9 +60,10 @@ std::vector<fs::path> filesOfFolder(const fs::path& folder) {
 
 std::vector<fs::path> filesOfList(const fs::path& list) {
   const std::vector<std::uint8_t> bytes = readFileBytes(list, kMaxListBytes);
-  if (std::find(bytes.begin(), bytes.end(), 0) != bytes.end())
+  const std::string_view text = unmarkedText(list, bytes);
+  if (text.find('\0') != std::string_view::npos)
     throw InputError(list, "is not a list of images: a text file with one path a line");
-  std::istringstream stream(std::string(bytes.begin(), bytes.end()));
+  std::istringstream stream{std::string(text)};
   std::vector<fs::path> files;
   std::set<fs::path> known;
   int number = 0;

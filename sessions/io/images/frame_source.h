@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sessions/io/images/image_file.h"
 
@@ -28,6 +29,9 @@ class FrameSource {
   virtual std::optional<Frame> next() = 0;
   /// Skips the next frame without reading its image; does nothing after the last one.
   virtual void skip() = 0;
+  /// For the operator, about the sequence as far as it was read: what its file states that is not
+  /// applied, damage. Complete after the last frame.
+  virtual std::vector<std::string> notes() const { return {}; }
 };
 
 /// The images of a folder (PNG, JPEG, TIFF and the labelled formats, by the ends of their names),

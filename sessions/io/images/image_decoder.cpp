@@ -31,6 +31,17 @@ std::size_t endOfJpeg(Bytes bytes) {
   return asText(bytes).find("\xff\xd9"sv, at);
 }
 
+/// Whether an arithmetic coder wrote the JPEG, which leaves any number of last bytes out.
+bool isArithmetic(Bytes bytes) {
+  constexpr std::uint8_t kStartOfScan = 0xda, kFirst = 0xc9, kLast = 0xcf, kConditions = 0xcc;
+  for (std::uint64_t at = 2; holds(bytes, at, 4) && bytes[at + 1] != kStartOfScan;) {
+    const std::uint8_t marker = bytes[at + 1];
+    if (marker >= kFirst && marker <= kLast && marker != kConditions) return true;
+    at += marker == 0xff ? 1 : 2 + readUnsigned(bytes, at + 2, 2, true);
+  }
+  return false;
+}
+
 /// The container of a complete file. Decoders accept truncated files, so the end marker is checked.
 std::string completeContainerOf(const std::filesystem::path& file, Bytes bytes) {
   const char* known = imageContainerOf(bytes);
@@ -46,31 +57,56 @@ std::string completeContainerOf(const std::filesystem::path& file, Bytes bytes) 
   return container;
 }
 
-/// The orientation 1 .. 8 that a TIFF or an Exif block, which is one, states in its first
-/// directory; 1 where it states none.
-int orientationOf(const std::string& container, Bytes bytes) {
-  const std::string_view mark = container == "PNG"    ? "eXIf"sv
-                                : container == "JPEG" ? "Exif\0\0"sv
-                                                      : ""sv;
-  const auto at = asText(bytes).find(mark);
-  if (at == std::string_view::npos) return 1;
-  const Bytes block = bytes.subspan(at + mark.size());
+/// The orientation 1 .. 8 that the first directory of a TIFF, or of an Exif block, which is one,
+/// states; 1 where it states none.
+int directoryOrientation(Bytes block) {
   const bool big_endian = !block.empty() && block[0] == 'M';
   const auto number = [&](std::uint64_t place, int size) {
     return holds(block, place, static_cast<std::uint64_t>(size))
                ? readUnsigned(block, place, size, big_endian)
                : 0;
   };
-  constexpr std::uint64_t kOrientation = 274, kShort = 3, kEntry = 12;
-  const std::uint64_t directory = number(4, 4);
-  const std::uint64_t count = number(directory, 2);
+  constexpr std::uint64_t kOrientation = 274, kShort = 3, kBigTiff = 43;
+  const bool big = number(2, 2) == kBigTiff;
+  const std::uint64_t directory = big ? number(8, 8) : number(4, 4);
+  const std::uint64_t count = std::min(number(directory, big ? 8 : 2), std::uint64_t{65536});
   for (std::uint64_t i = 0; i < count; ++i) {
-    const std::uint64_t entry = directory + 2 + i * kEntry;
+    const std::uint64_t entry = directory + (big ? 8 + i * 20 : 2 + i * 12);
     if (number(entry, 2) != kOrientation) continue;
-    const std::uint64_t stated = number(entry + 8, number(entry + 2, 2) == kShort ? 2 : 4);
+    const std::uint64_t stated =
+        number(entry + (big ? 12 : 8), number(entry + 2, 2) == kShort ? 2 : 4);
     return stated >= 1 && stated <= 8 ? static_cast<int>(stated) : 1;
   }
   return 1;
+}
+
+/// The same of an XMP packet: tiff:Orientation="6" or <tiff:Orientation>6<.
+int xmpOrientation(std::string_view text) {
+  constexpr std::string_view kName = "tiff:Orientation";
+  const std::size_t at = text.find(kName);
+  if (at == std::string_view::npos) return 1;
+  const std::string_view value = text.substr(at + kName.size(), 4);
+  const std::size_t digit = value.find_first_of("12345678");
+  return digit == std::string_view::npos ? 1 : value[digit] - '0';
+}
+
+/// What the file states about its orientation, which is not applied; "" where it states none.
+std::string orientationNote(const std::string& container, Bytes bytes) {
+  const std::string_view text = asText(bytes);
+  const std::string_view mark = container == "PNG"    ? "eXIf"sv
+                                : container == "JPEG" ? "Exif\0\0"sv
+                                                      : ""sv;
+  const auto at = text.find(mark);
+  int stated =
+      at == std::string_view::npos ? 1 : directoryOrientation(bytes.subspan(at + mark.size()));
+  const bool is_exif = stated != 1;
+  if (!is_exif) stated = xmpOrientation(text);
+  const std::string kept = " is not applied: pixels are used as they are stored";
+  if (stated != 1)
+    return (is_exif ? "EXIF" : "XMP") + (" orientation " + std::to_string(stated)) + kept;
+  const bool packed = container == "PNG" && (text.find("Raw profile type exif"sv) != text.npos ||
+                                             text.find("Raw profile type APP1"sv) != text.npos);
+  return packed ? "an orientation in the file's raw EXIF profile" + kept : "";
 }
 
 /// An image that GDAL has opened.
@@ -199,6 +235,7 @@ class OpenImage {
 std::string damageOfJpeg(const std::filesystem::path& file, Bytes bytes,
                          const std::string& warning) {
   constexpr std::size_t kLastBytes = 4;
+  if (warning.empty() && isArithmetic(bytes)) return "";
   if (!warning.empty()) return oneLine(warning.substr(0, warning.find(" (this warning")));
   const Bytes cut = bytes.first(endOfJpeg(bytes) - kLastBytes);
   std::vector<std::uint8_t> shorter(cut.begin(), cut.end());
@@ -239,9 +276,8 @@ ImageHeader readImageHeader(const std::filesystem::path& file, Bytes bytes) {
 DecodedImage decodeImage(const std::filesystem::path& file, Bytes bytes) {
   OpenImage open(file, bytes);
   DecodedImage decoded{open.header().container, open.pixels(), {}};
-  if (const int stated = orientationOf(decoded.container, bytes); stated != 1)
-    decoded.notes.push_back("EXIF orientation " + std::to_string(stated) +
-                            " is not applied: pixels are used as they are stored");
+  if (const std::string note = orientationNote(decoded.container, bytes); !note.empty())
+    decoded.notes.push_back(note);
   if (open.hasFurtherPages())
     decoded.notes.push_back("the file holds further images (pages): only the first is read");
   if (decoded.container == "JPEG")

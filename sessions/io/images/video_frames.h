@@ -12,9 +12,11 @@ namespace boresight::sessions {
 /// Whether the name ends as that of a video (.mp4, .avi, .mkv, ...).
 bool isVideoName(const std::filesystem::path& file);
 
-/// The frames of a video, named "frame 000001", ..., by OpenCV's reader. A frame that cannot be
-/// decoded ends the sequence. InputError when the file is missing, or no reader of this machine's
-/// OpenCV opens it.
+/// The frames of a video, named "frame 000001", ..., by OpenCV's reader, as they are stored:
+/// neither turned nor stretched as the file may state. Frames that cannot be decoded are left out.
+/// The notes name both, errors that the decoder reported, and another number of frames than the
+/// file states. InputError when the file is missing, or no reader of this machine's OpenCV opens
+/// it.
 std::unique_ptr<FrameSource> openVideo(const std::filesystem::path& file);
 
 /// The frames of a video by isVideoName, else those of a folder or list (openImages), whose samples

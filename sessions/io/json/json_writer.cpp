@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/files/atomic_file.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -25,7 +26,7 @@ bool isPlainList(const ordered_json& value) {
 std::string scalarText(const ordered_json& value) {
   if (value.is_number_float() && !std::isfinite(value.get<double>()))
     throw std::logic_error("a number for a JSON file is not finite");
-  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return compactJson(value);
 }
 
 void append(const ordered_json& value, const std::string& indent, std::string& text) {
@@ -41,7 +42,7 @@ void append(const ordered_json& value, const std::string& indent, std::string& t
   for (const auto& item : value.items()) {
     text += separator + line_start;
     separator = one_line ? ", " : ",";
-    if (value.is_object()) text += ordered_json(item.key()).dump() + ": ";
+    if (value.is_object()) text += compactJson(item.key()) + ": ";
     append(item.value(), inner, text);
   }
   text += (one_line ? "" : "\n" + indent) + (value.is_object() ? "}" : "]");
@@ -56,6 +57,29 @@ ordered_json rowsOf(const Matrix& matrix) {
 }
 
 }  // namespace
+
+std::string compactJson(const ordered_json& value) {
+  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+bool isUtf8(const std::string& text) {
+  try {
+    (void)ordered_json(text).dump();
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
+std::string utf8Text(const std::string& text) {
+  if (isUtf8(text)) return text;
+  std::string escaped;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    escaped += byte < 0x80 ? std::string(1, c) : formatText("\\x%02X", byte);
+  }
+  return escaped;
+}
 
 std::string prettyJson(const ordered_json& value) {
   std::string text;

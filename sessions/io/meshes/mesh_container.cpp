@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/io/meshes/obj_file.h"
+#include "sessions/io/meshes/stl_file.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -25,28 +29,33 @@ constexpr const char* kFormatNames[] = {"PLY", "OBJ", "STL", "glTF", "GLB"};  //
   throw InputError(file, std::string("the ") + format + " mesh is truncated");
 }
 
-MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
-  constexpr std::uint64_t kHeader = 84;
-  constexpr std::uint64_t kFacet = 50;
-  const std::string_view text = asText(bytes);
-  MeshDeclaration declaration;
-  const bool may_be_binary = bytes.size() >= kHeader;
-  const std::uint64_t facets = may_be_binary ? readUnsigned(bytes, 80, 4, false) : 0;
-  const bool fits_exactly = may_be_binary && bytes.size() == kHeader + facets * kFacet;
-  // A binary header may begin with "solid" too; then only the exact size distinguishes them.
-  if (text.starts_with("solid") && !fits_exactly) {
-    if (text.find("endsolid") == std::string_view::npos) truncatedMesh(file, "STL");
-    return declaration;
-  }
-  if (!may_be_binary) throw InputError(file, "not an STL mesh");
-  if (facets == 0) throw InputError(file, "the mesh has no faces");
-  if (bytes.size() < kHeader + facets * kFacet) truncatedMesh(file, "STL");
-  if (const std::uint64_t there = (bytes.size() - kHeader) / kFacet; there != facets)
-    throw InputError(file, "header",
-                     "declares " + std::to_string(facets) + " facets, but the file can hold only " +
-                         std::to_string(there));
-  declaration.polygon_count = static_cast<std::int64_t>(facets);
-  return declaration;
+constexpr const char* kWithoutIt = "is not read: export the mesh without it";
+
+/// Extensions that leave the geometry as it is.
+bool isHarmlessExtension(std::string_view name) {
+  constexpr std::string_view kBegins[] = {"KHR_materials_", "KHR_texture_",         "KHR_lights_",
+                                          "KHR_xmp",        "EXT_texture_",         "EXT_lights_",
+                                          "MSFT_texture_",  "KHR_animation_pointer"};
+  return std::ranges::any_of(kBegins,
+                             [name](std::string_view begin) { return name.starts_with(begin); });
+}
+
+/// A reader must refuse a file that requires what it does not know (glTF 2.0, 3.12).
+void checkRequiredExtensions(const JsonReader& gltf) {
+  const auto required = gltf.find("extensionsRequired");
+  if (!required) return;
+  for (const JsonReader& name : required->elements())
+    if (!isHarmlessExtension(name.text())) name.fail("'" + name.text() + "' " + kWithoutIt);
+}
+
+/// Compressed data, which importers take for zeros where its extension is optional.
+void checkBufferViews(const JsonReader& gltf) {
+  const auto views = gltf.find("bufferViews");
+  if (!views) return;
+  for (const JsonReader& view : views->elements())
+    if (const auto extensions = view.find("extensions"))
+      for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (extensions->has(name)) extensions->failMember(name, kWithoutIt);
 }
 
 const JsonReader& accessorAt(const JsonReader& index, const std::vector<JsonReader>& accessors) {
@@ -54,7 +63,19 @@ const JsonReader& accessorAt(const JsonReader& index, const std::vector<JsonRead
   const JsonReader& accessor = accessors[static_cast<std::size_t>(index.integer(0, last))];
   if (accessor.has("sparse"))
     accessor.failMember("sparse", "is not read: write the mesh without sparse accessors");
+  if (!accessor.has("bufferView"))
+    accessor.failMember("bufferView", "is missing: export the mesh without compression");
   return accessor;
+}
+
+/// Positions that are not float are quantized, with or without the extension's name.
+JsonReader positionsOf(const JsonReader& primitive, const std::vector<JsonReader>& accessors) {
+  constexpr std::int64_t kFloat = 5126;
+  JsonReader positions = accessorAt(primitive.at("attributes").at("POSITION"), accessors);
+  if (positions.at("componentType").integer(0) != kFloat)
+    positions.failMember("componentType",
+                         "is not float (5126): export the mesh without KHR_mesh_quantization");
+  return positions;
 }
 
 /// Triangles of one glTF primitive; nothing for lines and points.
@@ -65,7 +86,7 @@ std::optional<std::int64_t> gltfTriangles(const JsonReader& primitive,
   const auto mode_json = primitive.find("mode");
   const std::int64_t mode = mode_json ? mode_json->integer(0, kFan) : kTriangles;
   if (mode < kTriangles) return std::nullopt;
-  JsonReader corners = accessorAt(primitive.at("attributes").at("POSITION"), accessors);
+  JsonReader corners = positionsOf(primitive, accessors);
   if (const auto indices = primitive.find("indices")) corners = accessorAt(*indices, accessors);
   const std::int64_t count =
       corners.at("count").integer(0, std::numeric_limits<std::int32_t>::max());
@@ -115,23 +136,117 @@ void checkGltfNodes(const JsonReader& gltf) {
   checkDepth(nodes, parent);
 }
 
+/// Which nodes the scene that is read reaches.
+std::vector<bool> reachedNodes(const JsonReader& gltf, const std::vector<JsonReader>& nodes) {
+  std::vector<bool> reached(nodes.size(), false);
+  const auto scenes_json = gltf.find("scenes");
+  if (!scenes_json) return reached;
+  const std::vector<JsonReader> scenes = scenes_json->elements();
+  const auto scene_json = gltf.find("scene");
+  const std::int64_t scene =
+      scene_json ? scene_json->integer(0, static_cast<std::int64_t>(scenes.size()) - 1) : 0;
+  if (scenes.empty()) return reached;
+  std::vector<JsonReader> open;
+  const auto roots = scenes[static_cast<std::size_t>(scene)].find("nodes");
+  if (roots) open = roots->elements();
+  while (!open.empty()) {
+    const auto index = static_cast<std::size_t>(
+        open.back().integer(0, static_cast<std::int64_t>(nodes.size()) - 1));
+    open.pop_back();
+    reached[index] = true;
+    if (const auto children = nodes[index].find("children"))
+      for (const JsonReader& child : children->elements()) open.push_back(child);
+  }
+  return reached;
+}
+
+/// Which meshes the nodes of the scene show.
+std::vector<bool> shownMeshes(const std::vector<JsonReader>& nodes,
+                              const std::vector<bool>& reached, std::size_t meshes) {
+  std::vector<bool> shown(meshes, false);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const auto mesh = nodes[i].find("mesh"); mesh && reached[i])
+      shown[static_cast<std::size_t>(mesh->integer(0, static_cast<std::int64_t>(meshes) - 1))] =
+          true;
+  return shown;
+}
+
+bool isMorphed(const JsonReader& mesh) {
+  return std::ranges::any_of(mesh.at("primitives").elements(),
+                             [](const JsonReader& primitive) { return primitive.has("targets"); });
+}
+
+/// What importers leave out: copies, visibility, deformations.
+struct GltfRest {
+  std::int64_t instanced = 0;
+  std::int64_t hidden = 0;
+  std::int64_t skinned = 0;
+  std::int64_t morphed = 0;
+  std::int64_t unused = 0;  ///< meshes outside of the scene
+
+  void addNode(const JsonReader& node) {
+    if (node.has("mesh") && node.has("skin")) ++skinned;
+    const auto extensions = node.find("extensions");
+    if (!extensions) return;
+    if (extensions->has("EXT_mesh_gpu_instancing")) ++instanced;
+    if (const auto visibility = extensions->find("KHR_node_visibility"))
+      if (const auto visible = visibility->find("visible"); visible && !visible->boolean())
+        ++hidden;
+  }
+  std::vector<std::string> notes() const {
+    std::vector<std::string> notes;
+    const auto note = [&notes](std::int64_t count, const char* item, const char* what) {
+      if (count > 0) notes.push_back(countText(count, item) + what);
+    };
+    note(instanced, "node",
+         " with instances (EXT_mesh_gpu_instancing): only one instance was read");
+    note(hidden, "hidden node", ": read as visible");
+    note(skinned, "node", " with a skin: read without its deformation");
+    note(morphed, "mesh part", " with morph targets: read without them");
+    note(unused, "mesh part", " outside of the scene: left out");
+    return notes;
+  }
+};
+
 /// Importers leave out faces with bad indices; the count that the file declares shows it.
 MeshDeclaration checkGltfJson(const std::filesystem::path& file, std::string_view text) {
   const JsonDocument document(file, text);
   const JsonReader gltf = document.root();
   MeshDeclaration declaration;
+  checkRequiredExtensions(gltf);
+  checkBufferViews(gltf);
   const auto accessors = gltf.find("accessors");
   const auto meshes = gltf.find("meshes");
   if (!accessors || !meshes) throw InputError(file, "the mesh has no faces");
   checkGltfNodes(gltf);
   const std::vector<JsonReader> all_accessors = accessors->elements();
+  const std::vector<JsonReader> all_meshes = meshes->elements();
+  const auto nodes_json = gltf.find("nodes");
+  const std::vector<JsonReader> nodes =
+      nodes_json ? nodes_json->elements() : std::vector<JsonReader>();
+  const std::vector<bool> reached = reachedNodes(gltf, nodes);
+  const std::vector<bool> shown = shownMeshes(nodes, reached, all_meshes.size());
+  if (std::ranges::count(shown, true) == 0)
+    throw InputError(file, "scene", "shows no mesh: export the mesh with a scene");
+  GltfRest rest;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (reached[i]) rest.addNode(nodes[i]);
   std::int64_t triangles = 0;
-  for (const JsonReader& mesh : meshes->elements())
-    for (const JsonReader& primitive : mesh.at("primitives").elements()) {
-      const std::optional<std::int64_t> count = gltfTriangles(primitive, all_accessors);
-      if (!count) return declaration;
-      triangles += *count;
+  bool all_faces = true;
+  for (std::size_t i = 0; i < all_meshes.size(); ++i) {
+    if (!shown[i]) {
+      ++rest.unused;
+      continue;
     }
+    if (isMorphed(all_meshes[i])) ++rest.morphed;
+    for (const JsonReader& primitive : all_meshes[i].at("primitives").elements()) {
+      const std::optional<std::int64_t> count = gltfTriangles(primitive, all_accessors);
+      all_faces = all_faces && count.has_value();
+      triangles += count.value_or(0);
+    }
+  }
+  declaration.notes = rest.notes();
+  if (!all_faces) return declaration;
   declaration.polygon_count = triangles;
   return declaration;
 }
@@ -218,7 +333,7 @@ bool carriesUnit(MeshFormat format) {
 MeshDeclaration checkMeshContainer(const MeshFiles& files) {
   switch (files.format) {
     case MeshFormat::kPly:
-      return checkPly(files.file, files.bytes);
+      return checkPly(files.file, files.content());
     case MeshFormat::kStl:
       return checkStl(files.file, files.bytes);
     case MeshFormat::kGlb:
@@ -226,9 +341,32 @@ MeshDeclaration checkMeshContainer(const MeshFiles& files) {
     case MeshFormat::kGltf:
       return checkGltfJson(files.file, asText(files.bytes));
     case MeshFormat::kObj:
-      break;  // declares nothing
+      return checkObj(files.file, asText(files.content()));
   }
   return {};
+}
+
+void noteOpenEnd(std::string_view text, MeshDeclaration& declaration) {
+  if (!text.ends_with('\n') && !text.ends_with('\r'))
+    declaration.notes.emplace_back(
+        "the last line of the file has no line end: the file may be truncated");
+}
+
+std::optional<double> coordinateIn(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc() || text.find_first_of("eE") == std::string_view::npos) return value;
+  const bool small =
+      text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos;
+  return small ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+std::span<const std::uint8_t> MeshFiles::content() const {
+  if (format != MeshFormat::kPly && format != MeshFormat::kObj) return bytes;
+  return Bytes(bytes).last(unmarkedText(file, bytes).size());
 }
 
 MeshFiles readMeshFiles(const fs::path& file) {

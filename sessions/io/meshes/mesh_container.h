@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sessions/io/files/file_bytes.h"
@@ -34,8 +35,10 @@ struct MeshDeclaration {
   std::optional<std::int64_t> polygon_count;  ///< empty: not stated
   /// Offset of the data of a binary PLY, when their first byte looks like a line end.
   std::optional<std::size_t> newline_as_data = {};
-  /// A PLY mesh with triangle strips, or with faces before vertices: importers read its plainPly().
+  /// A PLY mesh with triangle strips, with faces before vertices, or with other lines than items:
+  /// importers read its plainPly().
   bool needs_plain_ply = false;
+  std::vector<std::string> notes = {};  ///< for the operator: what importers leave out
 };
 
 /// Of a mesh file and its buffers together.
@@ -57,6 +60,9 @@ struct MeshFiles {
   std::vector<std::uint8_t> bytes;
   std::vector<MeshBuffer> buffers;  ///< of glTF, in its order; without those inside the file itself
   std::string sha256;               ///< of the file and its buffers, one after the other
+
+  /// `bytes` without the byte order mark of a text. InputError for UTF-16.
+  std::span<const std::uint8_t> content() const;
 };
 
 /// Reads the files of a mesh without parsing its geometry. InputError: not readable, too large, a
@@ -64,13 +70,21 @@ struct MeshFiles {
 MeshFiles readMeshFiles(const std::filesystem::path& file);
 
 /// Checks that the mesh file has its extension's format, and is complete as far as the format shows
-/// (PLY: every element is present; STL: the facets or `endsolid`; GLB: the stated length; a
-/// truncated OBJ is not detected). Importers accept truncated files silently. InputError.
+/// (PLY: every element is present; STL: every facet and `endsolid`; GLB: the stated length; of an
+/// OBJ only an incomplete last line shows, which is noted), and requires no glTF extension that is
+/// not read. Importers accept truncated files and such extensions silently. InputError.
 MeshDeclaration checkMeshContainer(const MeshFiles& files);
 
 /// The part of checkMeshContainer for PLY (ASCII and binary of either byte order): walks every
 /// element that the header declares to its last value. InputError.
 MeshDeclaration checkPly(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+/// Notes that the last line of a text has no line end: it may be cut off within a number.
+void noteOpenEnd(std::string_view text, MeshDeclaration& declaration);
+
+/// A coordinate in a text file, also with a plus sign, infinite where it exceeds a double; empty
+/// for another text.
+std::optional<double> coordinateIn(std::string_view text);
 
 struct Mesh;
 

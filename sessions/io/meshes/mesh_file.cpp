@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -30,13 +31,42 @@ double unitScale(const MeshInfo& info) {
   return *scale;
 }
 
-void measure(Mesh& mesh) {
+constexpr double kNotedStep = 1e-4;  ///< of the mesh's diagonal
+constexpr double kFineStep_m = 1e-6;
+constexpr double kMostStep = 1e-3;
+
+/// Distance of neighbouring numbers of single precision at the largest coordinate: its rounding.
+double stepOf(const BoundingBox& bounds) {
+  const auto largest = static_cast<float>(
+      std::max(bounds.minimum_m.cwiseAbs().maxCoeff(), bounds.maximum_m.cwiseAbs().maxCoeff()));
+  return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) -
+         static_cast<double>(largest);
+}
+
+std::string farText(const BoundingBox& bounds) {
+  return "the mesh is " + lengthText(0.5 * (bounds.minimum_m + bounds.maximum_m).norm()) +
+         " from the origin, where coordinates are rounded to " + lengthText(stepOf(bounds)) +
+         ": move the origin to the mesh";
+}
+
+/// Bounds of the faces. InputError when single precision deforms the mesh.
+void bound(Mesh& mesh) {
   MeshInfo& info = mesh.info;
-  info.minimum_m = info.maximum_m = mesh.vertices_m.front().cast<double>();
-  for (const Eigen::Vector3f& vertex : mesh.vertices_m) {
-    info.minimum_m = info.minimum_m.cwiseMin(vertex.cast<double>());
-    info.maximum_m = info.maximum_m.cwiseMax(vertex.cast<double>());
-  }
+  info.minimum_m.setConstant(std::numeric_limits<double>::infinity());
+  info.maximum_m = -info.minimum_m;
+  for (const Face& face : mesh.faces)
+    for (const std::int32_t index : face.vertex) {
+      const Eigen::Vector3d vertex_m =
+          mesh.vertices_m[static_cast<std::size_t>(index)].cast<double>();
+      info.minimum_m = info.minimum_m.cwiseMin(vertex_m);
+      info.maximum_m = info.maximum_m.cwiseMax(vertex_m);
+    }
+  requireNear(info.file, {info.minimum_m, info.maximum_m});
+}
+
+void measure(Mesh& mesh) {
+  bound(mesh);
+  MeshInfo& info = mesh.info;
   for (const Face& face : mesh.faces) {
     const auto corner = [&mesh, &face](std::size_t i) -> Eigen::Vector3d {
       return mesh.vertices_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
@@ -87,6 +117,8 @@ Mesh readMesh(const MeshFiles& files, const std::string& unit) {
   if (declared.polygon_count != 0) importMesh(files, declared, mesh);
   if (mesh.faces.empty())
     throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
+  info.file_notes = declared.notes;
+  bound(mesh);  // welding would merge what was rounded
   weldMesh(mesh);
   if (mesh.faces.empty())
     throw InputError(file, "faces", "each has two coinciding corners and no area");
@@ -94,8 +126,13 @@ Mesh readMesh(const MeshFiles& files, const std::string& unit) {
   return mesh;
 }
 
+void requireNear(const std::filesystem::path& file, const BoundingBox& bounds) {
+  if (stepOf(bounds) > std::max(kMostStep * bounds.diagonal(), kFineStep_m))
+    throw InputError(file, "vertices", farText(bounds));
+}
+
 std::vector<std::string> MeshInfo::notes() const {
-  std::vector<std::string> all;
+  std::vector<std::string> all = file_notes;
   const auto count = [&all](std::int64_t number, const char* what) {
     if (number > 0) all.push_back(std::to_string(number) + " " + what);
   };
@@ -109,6 +146,8 @@ std::vector<std::string> MeshInfo::notes() const {
   if (diagonal_m() > kUnusuallyLarge_m || diagonal_m() < kUnusuallySmall_m)
     all.push_back("the mesh measures " + lengthText(diagonal_m()) + " across: check its unit '" +
                   unit + "'");
+  const BoundingBox bounds{minimum_m, maximum_m};
+  if (stepOf(bounds) > kNotedStep * diagonal_m()) all.push_back(farText(bounds));
   return all;
 }
 

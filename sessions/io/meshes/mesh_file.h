@@ -24,6 +24,7 @@ struct MeshInfo {
   std::string unit;    ///< as stated, or "m" for glTF
   double metres_per_unit = 1.0;
   std::string file_sha256;  ///< of the file and, for glTF, of its buffers in their order
+  std::vector<std::string> file_notes;  ///< what of the file's scene is not read
 
   std::int64_t file_vertices = 0;
   std::int64_t file_polygons = 0;
@@ -38,7 +39,7 @@ struct MeshInfo {
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();
 
   double diagonal_m() const { return (maximum_m - minimum_m).norm(); }
-  /// Lines for the operator: parts left out, an unusual size.
+  /// Lines for the operator: parts left out, an unusual size, coarse rounding.
   std::vector<std::string> notes() const;
 };
 
@@ -55,11 +56,16 @@ std::optional<double> metresPerUnit(const std::string& unit);
 /// Reads PLY, OBJ, STL, glTF or GLB. `unit` ("" = not given) is required for formats that carry
 /// none; glTF is in metres unless a unit is stated. Node transforms of glTF are applied. InputError
 /// when the file is missing, truncated, not of the format of its extension, has counts that
-/// contradict its data, no faces, an index out of range, coordinates that are not finite or beyond
-/// 1000 km, only slivers, or more than the limits above.
+/// contradict its data, no faces, an index out of range, coordinates that are not finite, beyond
+/// 1000 km, or so far from the origin that single precision would deform the mesh, only slivers, a
+/// required glTF extension that is not read, or more than the limits above.
 Mesh readMesh(const std::filesystem::path& file, const std::string& unit);
 /// The same of files that are already read.
 Mesh readMesh(const MeshFiles& files, const std::string& unit);
+
+/// InputError when single precision, in which vertices are stored, rounds the coordinates of a mesh
+/// within these bounds by more than a thousandth of its size.
+void requireNear(const std::filesystem::path& file, const BoundingBox& bounds);
 
 /// "12.3 mm" below a metre, else "4.56 m".
 std::string lengthText(double length_m);

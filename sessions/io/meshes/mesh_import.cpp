@@ -25,7 +25,9 @@
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/io/meshes/mesh_faces.h"
 #include "sessions/io/meshes/mesh_file.h"
+#include "sessions/io/meshes/obj_file.h"
 #include "sessions/io/meshes/ply_file.h"
+#include "sessions/io/meshes/stl_file.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // Importers of assimp leak when they reject a file; our own leaks must still be reported.
@@ -129,14 +131,17 @@ std::vector<std::uint8_t> gltfGeometry(std::span<const std::uint8_t> bytes, Mesh
   return result;
 }
 
-/// What the importer gets in place of the mesh's file; empty: the file as it is. It takes a first
-/// data byte of 10 for the second half of a PLY header's line end and drops it, which moves all
-/// that follows: it gets one more to drop.
+/// What the importer gets in place of the mesh's file. It takes a first data byte of 10 for the
+/// second half of a PLY header's line end and drops it, which moves all that follows: it gets one
+/// more to drop.
 std::vector<std::uint8_t> rewrittenFor(const MeshFiles& files, const MeshDeclaration& declared) {
   if (carriesUnit(files.format)) return gltfGeometry(files.bytes, files.format);
-  if (declared.needs_plain_ply) return plainPly(files.file, files.bytes);
-  if (!declared.newline_as_data) return {};
-  std::vector<std::uint8_t> longer = files.bytes;
+  if (files.format == MeshFormat::kStl) return plainStl(files.file, files.bytes);
+  const std::span<const std::uint8_t> content = files.content();
+  if (files.format == MeshFormat::kObj) return plainObj(asText(content));
+  if (declared.needs_plain_ply) return plainPly(files.file, content);
+  std::vector<std::uint8_t> longer(content.begin(), content.end());
+  if (!declared.newline_as_data) return longer;
   longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(*declared.newline_as_data), '\n');
   return longer;
 }
@@ -267,7 +272,7 @@ void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::i
 void importMesh(const MeshFiles& files, const MeshDeclaration& declared, Mesh& mesh) {
   const std::vector<std::uint8_t> rewritten = rewrittenFor(files, declared);
   Assimp::Importer importer;
-  const aiScene* scene = import(importer, files, rewritten.empty() ? files.bytes : rewritten);
+  const aiScene* scene = import(importer, files, rewritten);
   checkIndices(files.file, *scene);
   countPrimitives(*scene, declared, mesh.info);
   placeNodes(*scene, mesh);

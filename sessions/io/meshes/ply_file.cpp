@@ -53,6 +53,9 @@ void readPlyLine(const std::filesystem::path& file, const std::string& line, Ply
     if (header.elements.empty() || plyTypeSize(property.type) == 0 || bad_list)
       throw InputError(file, "header", "bad line '" + line + "'");
     header.elements.back().properties.push_back(property);
+  } else if (keyword != "ply" && keyword != "comment" && keyword != "obj_info" &&
+             !keyword.empty()) {
+    throw InputError(file, "header", "bad line '" + line + "'");
   }
 }
 
@@ -65,6 +68,30 @@ void requireEnd(const std::filesystem::path& file, const PlyHeader& header, Byte
   throw InputError(file, "header",
                    "declares " + declared + ", but " + std::to_string(rest.size()) +
                        " more bytes follow these elements");
+}
+
+/// What makes geometry of the values has a name.
+void requireNames(const std::filesystem::path& file, const PlyElement& element) {
+  const auto has = [&element](bool list, const char* name) {
+    return std::ranges::any_of(element.properties, [&](const PlyProperty& property) {
+      return property.isList() == list && property.name == name;
+    });
+  };
+  if (element.name == "vertex" && !(has(false, "x") && has(false, "y") && has(false, "z")))
+    throw InputError(file, "header", "the vertices have no properties x, y and z");
+  if (element.name == "face" && element.count > 0 && !has(true, "vertex_indices") &&
+      !has(true, "vertex_index"))
+    throw InputError(file, "header", "the faces have no list vertex_indices");
+}
+
+/// Whether each item has a line, as importers take for granted.
+bool isLineByItem(const PlyHeader& header, std::string_view body) {
+  std::uint64_t items = 0;
+  for (const PlyElement& element : header.elements) items += element.count;
+  const std::size_t last = body.find_last_not_of(" \t\r\n");
+  if (last == std::string_view::npos) return items == 0;
+  const auto ends = std::ranges::count(body.substr(0, last), '\n');
+  return items == static_cast<std::uint64_t>(ends) + 1;
 }
 
 }  // namespace
@@ -117,7 +144,9 @@ std::uint64_t PlyValues::bits(const std::string& type) {
 
 void PlyValues::skip(std::uint64_t values, const std::string& type) {
   if (encoding_ == PlyEncoding::kAscii) {
-    for (; values > 0; --values) (void)word();
+    for (; values > 0; --values)
+      if (const std::string_view text = word(); !coordinateIn(text))
+        throw InputError(file_, "'" + oneLine(text.substr(0, 40)) + "' is not a number");
     return;
   }
   const auto size = static_cast<std::uint64_t>(plyTypeSize(type));
@@ -159,17 +188,21 @@ MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
     // Any count of a file that we would accept fits.
     if (element.count > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
       throw InputError(file, "header", "too many items in element '" + element.name + "'");
+    requireNames(file, element);
     if (element.name == "vertex")
       declaration.vertex_count = static_cast<std::int64_t>(element.count);
     if (element.name == "face")
       declaration.polygon_count = static_cast<std::int64_t>(element.count);
   }
-  declaration.needs_plain_ply = needsPlainPly(header);
+  const bool is_ascii = header.encoding == PlyEncoding::kAscii;
+  const std::string_view body_text = asText(bytes.subspan(header.body));
+  declaration.needs_plain_ply =
+      needsPlainPly(header) || (is_ascii && !isLineByItem(header, body_text));
+  if (is_ascii) noteOpenEnd(body_text, declaration);
   if (declaration.needs_plain_ply) declaration.polygon_count.reset();
   if (declaration.vertex_count.value_or(0) == 0) throw InputError(file, "the mesh has no vertices");
   const std::uint64_t body = header.body;
-  if (header.encoding != PlyEncoding::kAscii && body < bytes.size() && bytes[body] == '\n' &&
-      bytes[body - 2] != '\r')
+  if (!is_ascii && body < bytes.size() && bytes[body] == '\n' && bytes[body - 2] != '\r')
     declaration.newline_as_data = static_cast<std::size_t>(body);
   PlyValues values(file, header, bytes);
   for (const PlyElement& element : header.elements)

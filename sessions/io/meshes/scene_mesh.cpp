@@ -16,6 +16,17 @@ std::size_t stationFaceCount(const MeshView& view) {
   return static_cast<std::size_t>(end - view.part_of_face.begin());
 }
 
+BoundingBox placedBounds(const Mesh& mesh, const Pose& frame_from_mesh) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BoundingBox bounds{Eigen::Vector3d::Constant(kInfinity), Eigen::Vector3d::Constant(-kInfinity)};
+  for (const Eigen::Vector3f& vertex : mesh.vertices_m) {
+    const Eigen::Vector3d placed_m = frame_from_mesh * vertex.cast<double>().eval();
+    bounds.minimum_m = bounds.minimum_m.cwiseMin(placed_m);
+    bounds.maximum_m = bounds.maximum_m.cwiseMax(placed_m);
+  }
+  return bounds;
+}
+
 }  // namespace
 
 void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh, const ScenePart& part,
@@ -30,6 +41,7 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh, co
   require(scene.parts.size() + 1, std::numeric_limits<std::uint16_t>::max(), "parts");
   // Without a transform the coordinates keep their bits.
   const bool in_place = frame_from_mesh == Pose();
+  if (!in_place) requireNear(file, placedBounds(mesh, frame_from_mesh));
   for (const Eigen::Vector3f& vertex : mesh.vertices_m)
     scene.vertices_in_station_m.push_back(
         in_place ? vertex

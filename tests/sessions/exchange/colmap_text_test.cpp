@@ -151,6 +151,65 @@ TEST_F(ColmapText, NamesWhatIsWrong) {
   }
 }
 
+/// Without the empty lines, every second image would be taken for the points of the one before.
+TEST_F(ColmapText, ImageInPlaceOfPoints_IsRefused) {
+  folder_.write("cameras.txt", "1 PINHOLE 10 10 9 9 5 5\n");
+  const std::string image = "1 0 0 0 0 0 1 1 ";
+  const std::string refusal =
+      " is not a list of points (x y id): write an empty line after each image without points";
+  const auto message = [&](const std::string& text) {
+    folder_.write("images.txt", text);
+    return folder_.message([&] { (void)readImages(); });
+  };
+  const std::string first = "1 " + image + "a.png\n", second = "2 " + image + "b 1.png\n";
+  for (const char* points : {"1.5 2 x\n", "1.5 2\n", "1,5 2 3\n", "1.5 2 3.5\n", "# none\n"})
+    EXPECT_EQ(message(first + points + second), "images.txt: line 2:" + refusal) << points;
+  EXPECT_EQ(message(first + second), "images.txt: line 2:" + refusal);
+  EXPECT_EQ(message(first + "\n" + second + "3 " + image + "c.png"),
+            "images.txt: line 4:" + refusal);
+  for (const char* points : {"\n", " \r\n", "1 2e0 -1\r\n", "\n\n"})
+    EXPECT_EQ(message(first + points + second), "(nothing)") << points;
+  EXPECT_EQ(readImages().size(), 2u);
+}
+
+/// COLMAP states the number of images and cameras in a comment.
+TEST_F(ColmapText, TruncatedModel_IsRefused) {
+  const std::string cameras = "# Number of cameras: 1\n1 PINHOLE 10 10 9 9 5 5\n";
+  std::string images = "# Number of images: 3, mean observations per image: 0.5\r\n";
+  for (const char* id : {"1", "2", "3"})
+    images += std::string(id) + " 1 0 0 0 0 0 1 1 " + id + ".png\n1.5 2 3\n";
+  folder_.write("cameras.txt", cameras);
+  folder_.write("images.txt", images);
+  EXPECT_EQ(readImages().size(), 3u);
+  for (std::size_t size = 1; size <= images.rfind(" 3.png"); ++size) {
+    folder_.write("images.txt", images.substr(0, size));
+    const std::string message = folder_.message([&] { EXPECT_TRUE(readImages().empty()); });
+    EXPECT_TRUE(message != "(nothing)" || size < images.find(',')) << size;
+  }
+  folder_.write("images.txt", images.substr(0, images.rfind("3 1")));
+  EXPECT_EQ(folder_.message([&] { (void)readImages(); }),
+            "images.txt: states 3 images, but has 2: it may be truncated, or its comment is "
+            "outdated");
+  folder_.write("cameras.txt", "# Number of cameras: 2\n1 PINHOLE 10 10 9 9 5 5\n");
+  EXPECT_EQ(folder_.message([&] { (void)readImages(); }),
+            "cameras.txt: states 2 cameras, but has 1: it may be truncated, or its comment is "
+            "outdated");
+}
+
+TEST_F(ColmapText, BinaryModelAndMarkedText_AreKnown) {
+  folder_.write("cameras.bin", "x");
+  EXPECT_EQ(folder_.message([&] { (void)readImages(); }),
+            "cameras.txt: no such file, but the binary one: convert the model to text with colmap "
+            "model_converter --output_type TXT");
+  folder_.write("cameras.txt",
+                "\xEF\xBB\xBF"
+                "1 PINHOLE 10 10 9 9 5 5\n");
+  folder_.write("images.txt",
+                "\xEF\xBB\xBF"
+                "1 1 0 0 0 0 0 1 1 a.png\n\n");
+  EXPECT_EQ(readImages().size(), 1u);
+}
+
 TEST_F(ColmapText, RefusesWhatItCouldNotReadBack) {
   PosedImage image{0, "a.png", preparedCamera(CameraModel::kPinhole), Pose()};
   EXPECT_THROW(writeImages({&image, 1}), OutputError);  // id 0

@@ -19,11 +19,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxLabelBytes = 4 * kMegabyte;
 constexpr std::size_t kBeginning = 4096;
 
-/// Without the mark of UTF-8.
-std::string_view withoutMark(std::string_view text) {
-  return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
-}
-
 /// The text after KEY = at its first place from `from` on.
 std::optional<std::string_view> textAfter(std::string_view label, std::string_view key,
                                           std::size_t from = 0) {
@@ -171,18 +166,25 @@ std::string readPds4Label(LabelFiles& files) {
   return readXmlLabel(files);
 }
 
-/// The file of that name in the label's folder; upper and lower case may differ, as on discs that
-/// such labels were written for.
-fs::path fileBeside(const fs::path& label_file, const std::string& name) {
-  const fs::path folder = label_file.has_parent_path() ? label_file.parent_path() : fs::path(".");
+/// The files of that name in the folder of `file`: the one of the same case, if there is one, else
+/// all that differ in case, as on discs that such labels were written for.
+std::vector<fs::path> filesBeside(const fs::path& file, const std::string& name) {
+  const fs::path folder = file.parent_path();
   std::error_code error;
-  if (fs::exists(folder / name, error)) return folder / name;
+  if (fs::exists(folder / name, error)) return {folder / name};
   const std::string wanted = lowerCase(name);
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (lowerCase(entry.path().filename().string()) == wanted) found.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error))
+    if (const fs::path other = entry.path().filename(); lowerCase(other.string()) == wanted)
+      found.push_back(folder / other);
   std::sort(found.begin(), found.end());
-  return found.empty() ? folder / name : found.front();
+  return found;
+}
+
+/// The file of that name, which may differ in case, in the label's folder.
+fs::path fileBeside(const fs::path& label_file, const std::string& name) {
+  const std::vector<fs::path> found = filesBeside(label_file, name);
+  return found.empty() ? label_file.parent_path() / name : found.front();
 }
 
 /// None of a file that cannot be read.
@@ -208,7 +210,8 @@ bool names(const fs::path& label_file, const fs::path& file) {
   } catch (const InputError&) {
     // Not a label that says so.
   }
-  return lowerCase(named) == lowerCase(file.filename().string());
+  std::error_code error;
+  return !named.empty() && fs::equivalent(fileBeside(label_file, named), file, error);
 }
 
 /// Reads the file of the pixels that the label names.
@@ -273,11 +276,9 @@ std::optional<fs::path> labelFileOf(const fs::path& file) {
     begin = beginningOf(file, kMaxLabelBytes);
   if (labelFormatOf(begin)) return file;
   if (begin.empty() || imageContainerOf(begin) != nullptr) return std::nullopt;
-  for (const char* ending : {".lbl", ".LBL", ".xml", ".XML"}) {
-    fs::path label = file;
-    label.replace_extension(ending);
-    if (label != file && names(label, file)) return label;
-  }
+  for (const char* ending : {".lbl", ".LBL", ".xml", ".XML"})
+    for (const fs::path& label : filesBeside(file, file.stem().string() + ending))
+      if (label.filename() != file.filename() && names(label, file)) return label;
   return std::nullopt;
 }
 

@@ -106,9 +106,28 @@ TEST_F(CahvorText, InternalCovariance_SetsTheCalibrationSigma) {
   ASSERT_TRUE(stated);
   EXPECT_DOUBLE_EQ(stated->focal_relative, 0.18 / 450.0) << "the worse of Hs and Vs";
   EXPECT_DOUBLE_EQ(stated->principal_point_px, 0.5) << "the worse of Hc and Vc";
+  std::string mirrored = kText;
+  const std::string v = "-129.600000      0.000000    577.200000";
+  mirrored.replace(mirrored.find(v), v.size(), "590.4 0 37.2");
+  const auto of_mirrored = sigma(mirrored + "\nS internal =\n 0.0081" + rest);
+  ASSERT_TRUE(of_mirrored);
+  EXPECT_DOUBLE_EQ(of_mirrored->focal_relative, 0.18 / 450.0) << "fy is negative";
   std::string zeros = "\nS internal =\n";
   for (int i = 0; i < 25; ++i) zeros += " 0";
   EXPECT_FALSE(sigma(kText + zeros + "\n")) << "it says nothing";
+}
+
+TEST_F(CahvorText, CameraFilesOfOtherPrograms_AreNamed) {
+  for (const char* name : {"camera.yaml", "camera.YML", "camera.xml"})
+    EXPECT_THAT(folder_.message([&] {
+      (void)readCameraFile(folder_.write(name, std::string_view("%YAML:1.0\nfx: 9")));
+    }),
+                HasSubstr(": a camera is read from a camera.json, a .cahvor file or a labelled"));
+}
+
+TEST_F(CahvorText, ByteOrderMark_IsNotPartOfTheFirstKey) {
+  const std::string text = kText;
+  EXPECT_EQ(error("\xEF\xBB\xBF" + text.substr(text.find("Model"))), "(nothing)");
 }
 
 TEST_F(CahvorText, NamesWhatIsWrong) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/files/atomic_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,6 +67,27 @@ TEST_F(AtomicFile, ReportsAFullDeviceAndLeavesItAlone) {
   fs::create_symlink(full, folder_ / "link");
   EXPECT_EQ(folder_.message([&] { writeFileAtomically(folder_ / "link", "x"); }),
             "cannot write link: no space left on the device");
+}
+
+/// As /dev/stdout, which may be a pipe, or a file that holds what was printed before.
+TEST_F(AtomicFile, OpenFileOfTheProcess_IsWrittenAtItsPlace) {
+  const fs::path file = folder_.write("o.txt", std::string_view(""));
+  const int open = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  ASSERT_EQ(::write(open, "first ", 6), 6);
+  fs::create_symlink("/proc/self/fd/" + std::to_string(open), folder_ / "link");
+  requireWritable(folder_ / "link");
+  writeFileAtomically(folder_ / "link", std::string_view("second"));
+  ASSERT_EQ(::write(open, " third", 6), 6);
+  ::close(open);
+  EXPECT_EQ(folder_.read("o.txt"), "first second third");
+  int ends[2] = {};
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  writeFileAtomically("/dev/fd/" + std::to_string(ends[1]), std::string_view("piped"));
+  char text[8] = {};
+  EXPECT_EQ(::read(ends[0], text, sizeof(text)), 5);
+  EXPECT_STREQ(text, "piped");
+  ::close(ends[0]);
+  ::close(ends[1]);
 }
 
 TEST_F(AtomicFile, KeepsTheOldFileWhenWritingFailsHalfWay) {

@@ -72,6 +72,28 @@ TEST_F(FileBytes, UnreadableFile_IsReportedWithTheReason) {
   EXPECT_EQ(message(folder_.path()), folder_.path().string() + ": is a folder, not a file");
 }
 
+TEST_F(FileBytes, WhatADownloadLeavesInPlaceOfAFile_IsNamed) {
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n";
+  const std::string lfs = ": is a Git LFS pointer instead of the file: run git lfs pull";
+  const std::string html = ": is an HTML page instead of the file: download the file itself";
+  const std::pair<std::string, std::string> files[] = {
+      {pointer, lfs}, {"\n<!DOCTYPE html>\n<p>", html}, {"\xEF\xBB\xBF<HTML lang=en>", html}};
+  for (const auto& [content, refusal] : files) {
+    const fs::path file = folder_.write("a.png", content);
+    EXPECT_EQ(folder_.message([&] { (void)readFileBytes(file, kMegabyte); }), "a.png" + refusal);
+    EXPECT_EQ(folder_.message([&] { (void)readBeginning(file, 8); }), "a.png" + refusal);
+  }
+}
+
+TEST_F(FileBytes, Text_HasNoByteOrderMark) {
+  using namespace std::string_view_literals;
+  EXPECT_EQ(unmarkedText("a", "\xEF\xBB\xBFkind"sv), "kind");
+  EXPECT_EQ(unmarkedText("a", "kind"sv), "kind");
+  for (const std::string_view text : {"\xFF\xFEk\0"sv, "\xFE\xFF\0k"sv, "\0\0\xFE\xFF"sv})
+    EXPECT_EQ(folder_.message([&] { (void)unmarkedText("a.csv", text); }),
+              "a.csv: is UTF-16 or UTF-32 text: save it as UTF-8");
+}
+
 class InputFiles : public FolderTest {
  protected:
   /// Whether an output of this name and use is refused, and the file is as it was.

@@ -43,7 +43,8 @@ TEST_F(FrameSourceTest, List_GivesItsImagesInOrderRelativeToIt) {
   image("2.png", 2);
   folder_.write("sub/1.png", std::string_view(""));
   image("sub/1.png", 1);
-  const auto list = folder_.write("list.txt", std::string_view("# order\n2.png\r\n\nsub/1.png"));
+  const auto list =
+      folder_.write("list.txt", std::string_view("\xEF\xBB\xBF# order\n2.png\r\n\nsub/1.png"));
   EXPECT_THAT(namesOf(list), ElementsAre("2.png", "sub/1.png"));
   const auto source = openImages(list);
   EXPECT_EQ(source->next()->image->pixels.front(), 2);

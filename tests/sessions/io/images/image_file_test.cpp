@@ -380,6 +380,48 @@ TEST_F(ReadImage, OrientationOfJpegIsReportedAndNotApplied) {
   EXPECT_THAT(read(withExif(plain, {'M', 'M', 0, 42, 0, 0, 0, 99})).notes, IsEmpty());
 }
 
+/// Of other places in which programs state it.
+TEST_F(ReadImage, OrientationOfBigTiffAndXmp_IsReported) {
+  const cv::Mat pixels = randomImage(CV_8UC1);
+  const auto with = [&](const std::string& text) {
+    const Bytes block(text.begin(), text.end());
+    return read(withExif(encoded(pixels, ".jpg"), block)).notes;
+  };
+  const auto six =
+      ElementsAre("XMP orientation 6 is not applied: pixels are used as they are stored");
+  EXPECT_THAT(with("<rdf tiff:Orientation=\"6\">"), six);
+  EXPECT_THAT(with("<tiff:Orientation>6</tiff:Orientation>"), six);
+  EXPECT_THAT(with("<rdf tiff:Orientation=\"1\">"), IsEmpty());
+  Bytes text;
+  const std::string profile = "Raw profile type exif";
+  appendChunk(text, "tEXt", Bytes(profile.begin(), profile.end()));
+  Bytes raw = encoded(pixels, ".png");
+  raw.insert(raw.begin() + 33, text.begin(), text.end());  // behind IHDR
+  EXPECT_THAT(read(raw).notes, ElementsAre(HasSubstr("in the file's raw EXIF profile is not")));
+  // Little-endian: a directory at 16 with width, height, samples, orientation and one strip.
+  Bytes tiff = {'I', 'I', 43, 0, 8, 0, 0, 0};
+  const auto add = [&tiff](std::uint64_t value, int size) {
+    for (int i = 0; i < size; ++i) tiff.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+  };
+  const std::pair<int, int> tags[] = {{256, 2}, {257, 2}, {258, 8}, {259, 1}, {262, 1},
+                                      {273, 0}, {274, 6}, {277, 1}, {278, 2}, {279, 4}};
+  add(16, 8);
+  add(std::size(tags), 8);
+  const auto data = static_cast<int>(16 + 8 + 20 * std::size(tags) + 8);
+  for (const auto& [tag, value] : tags) {
+    add(static_cast<std::uint64_t>(tag), 2);
+    add(3, 2);
+    add(1, 8);
+    add(static_cast<std::uint64_t>(tag == 273 ? data : value), 8);
+  }
+  add(0, 8);
+  tiff.insert(tiff.end(), {1, 2, 3, 4});
+  const GrayImage big = read(tiff);
+  EXPECT_EQ(big.pixels, (Bytes{1, 2, 3, 4}));
+  EXPECT_THAT(big.notes, ElementsAre("EXIF orientation 6 is not applied: pixels are used as they "
+                                     "are stored"));
+}
+
 TEST_F(ReadImage, FurtherPagesOfTiffAreReported) {
   const cv::Mat first = randomImage(CV_8UC1);
   cv::imwritemulti((folder_ / "pages.tiff").string(), std::vector<cv::Mat>{first, first.t()});

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <opencv2/videoio.hpp>
 
+#include "sessions/io/files/errors.h"
 #include "sessions/io/images/pixel_image.h"
 #include "tests/sessions/io/folder_test.h"
 #include "tests/support/matchers.h"
@@ -65,6 +68,84 @@ TEST_F(Video, FileThatIsNone_IsRefusedWithTheRemedy) {
               HasSubstr("cannot read this video; write its frames as PNG images"));
   EXPECT_THAT(folder_.message([&] { (void)openVideo(folder_ / "none.mp4"); }),
               HasSubstr("there is no such file"));
+}
+
+std::string bytesOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The number of frames with an image and the notes behind the last one; -1: refused.
+std::pair<int, std::vector<std::string>> contentOf(const std::filesystem::path& file) {
+  try {
+    const auto source = openVideo(file);
+    int frames = 0;
+    while (const auto frame = source->next()) frames += frame->image ? 1 : 0;
+    return {frames, source->notes()};
+  } catch (const InputError&) {
+    return {-1, {}};
+  }
+}
+
+/// Frames are never left out in silence.
+TEST_F(Video, TruncatedFile_IsRefusedOrNoted) {
+  ASSERT_TRUE(writeVideo(folder_ / "whole.avi", true));
+  EXPECT_EQ(contentOf(folder_ / "whole.avi"), std::pair(5, std::vector<std::string>()));
+  const std::string whole = bytesOf(folder_ / "whole.avi");
+  bool noted = false;
+  for (std::size_t size = 1; size < whole.size(); size += 1 + whole.size() / 61) {
+    const auto [frames, notes] = contentOf(folder_.write("cut.avi", whole.substr(0, size)));
+    EXPECT_TRUE(frames == -1 || frames == 5 || !notes.empty()) << size << " of " << whole.size();
+    noted = noted || (frames > 0 && !notes.empty());
+  }
+  EXPECT_TRUE(noted);
+}
+
+TEST_F(Video, DamagedFrame_IsNoted) {
+  ASSERT_TRUE(writeVideo(folder_ / "whole.avi", true));
+  std::string bytes = bytesOf(folder_ / "whole.avi");
+  const std::size_t frame = bytes.find("\xFF\xD8", bytes.size() / 2);
+  ASSERT_NE(frame, std::string::npos);
+  bytes.replace(frame, 600, 600, '\0');
+  EXPECT_FALSE(contentOf(folder_.write("damaged.avi", bytes)).second.empty());
+}
+
+/// As images are. The matrix of an MP4 file's track states a quarter turn.
+TEST_F(Video, RotationTag_IsNotAppliedAndNoted) {
+  const auto file = folder_ / "turned.mp4";
+  {
+    cv::VideoWriter writer(file.string(), cv::CAP_FFMPEG,
+                           cv::VideoWriter::fourcc('m', 'p', '4', 'v'), 10.0, cv::Size(64, 48));
+    if (!writer.isOpened()) GTEST_SKIP() << "this OpenCV writes no MP4";
+    cv::Mat pixels(48, 64, CV_8UC3, cv::Scalar(0, 0, 0));
+    pixels.colRange(0, 32).setTo(cv::Scalar(255, 255, 255));
+    for (int i = 0; i < 5; ++i) writer.write(pixels);
+  }
+  std::string bytes = bytesOf(file);
+  const std::size_t matrix = bytes.find("tkhd") + 44;
+  const std::string quarter("\0\0\0\0\0\1\0\0\0\0\0\0\xFF\xFF\0\0\0\0\0\0", 20);
+  bytes.replace(matrix, quarter.size(), quarter);
+  folder_.write("turned.mp4", bytes);
+  const auto source = openVideo(file);
+  const auto frame = source->next();
+  ASSERT_TRUE(frame && frame->image);
+  EXPECT_EQ(std::pair(frame->image->width, frame->image->height), std::pair(64, 48));
+  EXPECT_GT(frame->image->pixels[64 * 24 + 5], 200);
+  EXPECT_LT(frame->image->pixels[64 * 24 + 58], 50);
+  EXPECT_THAT(source->notes(), ::testing::ElementsAre(HasSubstr("deg, which is not applied")));
+}
+
+/// FFmpeg would take what is in front of the colon for a protocol.
+TEST_F(Video, NameWithAColonOrInTheWorkingFolder_IsRead) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  for (const char* name :
+       {"take:1.avi", "http:x.avi", "concat:a|b.avi", "caf\xE9.avi", "%03d.avi"}) {
+    ASSERT_TRUE(writeVideo("plain.avi", false));
+    std::filesystem::rename("plain.avi", name);
+    EXPECT_EQ(contentOf(name).first, 5) << name;
+  }
+  std::filesystem::current_path(before);
 }
 
 TEST_F(Video, Names_AreKnownByTheirEnds) {

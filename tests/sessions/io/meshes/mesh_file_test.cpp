@@ -416,25 +416,241 @@ TEST_F(ReadMesh, RefusesIndicesOutOfRange) {
   }
 }
 
+/// The cube as two solids of six facets.
+std::string twoSolids() {
+  std::string text = asciiStl(cube());
+  std::size_t middle = 0;
+  for (int facet = 0; facet < 6; ++facet) middle = text.find("endfacet\n", middle) + 9;
+  return text.insert(middle, "endsolid cube\nsolid b\n");
+}
+
+TEST_F(ReadMesh, StlOfOtherPrograms_IsRead) {
+  const std::string text = asciiStl(cube());
+  const std::string mark = "\xEF\xBB\xBF";
+  expectCube(read("solids.stl", twoSolids()));
+  expectCube(read("empty.stl", "solid 4\nendsolid\n" + text));
+  for (const std::string& begin : {std::string(" "), std::string("\r\n\t"), mark, mark + " \n"})
+    expectCube(read("begin.stl", begin + text));
+  expectCube(read("capitals.stl", upperCase(text)));
+  expectCube(read("signs.stl", replaced(replaced(text, " 1.0", " +1.0"), "9.000000", "9.0E+00")));
+  expectCube(read("crlf.stl", replaced(text, "\n", "\r\n")));
+  expectCube(read("end.stl", text + "\n \n"));
+  expectCube(read("padded.stl", binaryStl(cube()) + "\n"));
+}
+
+TEST_F(ReadMesh, Stl_TheTrueReasonIsGiven) {
+  const std::string text = asciiStl(cube());
+  const std::string line = "vertex -1.000000 -1.000000 9.000000\n";
+  ASSERT_NE(text.find(line), std::string::npos);
+  const auto with = [&](const std::string& changed) {
+    return error("a.stl", std::string(text).replace(text.find(line), line.size(), changed));
+  };
+  EXPECT_THAT(with(line + line), AllOf(StartsWith("a.stl: line "),
+                                       HasSubstr("more than three vertices: write triangles")));
+  EXPECT_THAT(with("vertex -1,0 -1,0 9,0\n"), HasSubstr("'-1,0' is not a number"));
+  EXPECT_THAT(with("vertex -1 -1\n"), HasSubstr(" is not a number"));
+  EXPECT_THAT(with(""), HasSubstr("instead of vertex"));
+  EXPECT_THAT(error("a.stl", text + "facet"), HasSubstr("'facet' instead of solid"));
+  EXPECT_EQ(error("a.stl", obj(cube())),
+            "a.stl: not an STL mesh: it begins neither with 'solid' nor as a binary one");
+  EXPECT_EQ(error("a.stl", "solid none\nendsolid none\n"),
+            "a.stl: the mesh has no faces (a point cloud cannot be rendered)");
+  EXPECT_EQ(error("a.stl", twoSolids().substr(0, twoSolids().rfind("endfacet"))),
+            "a.stl: the STL mesh is truncated");
+  EXPECT_EQ(error("a.stl", text.substr(0, text.find("-1.000000") + 1)),
+            "a.stl: the STL mesh is truncated");
+}
+
+/// A backslash at the end of a name or comment is that of a folder of Windows.
+TEST_F(ReadMesh, ObjNameThatEndsInABackslash_LeavesTheNextLineWhole) {
+  const std::string text = obj(cube());
+  const std::size_t face = text.rfind("f ");
+  for (const std::string& line :
+       {std::string("usemtl Steel\\Matte\\"), std::string("g C:\\parts\\ "), std::string("o a\\b"),
+        std::string("# from D:\\"), std::string("mtllib C:\\a\\"), std::string("s \\")})
+    for (const char* end : {"\n", "\r\n"}) {
+      expectCube(read("name.obj", std::string(text).insert(face, line + end)));
+      expectCube(read("vertex.obj", std::string(text).insert(text.find("v "), line + end)));
+    }
+  const std::size_t end = text.find('\n', face);
+  expectCube(read("comment.obj", std::string(text).insert(end, " # D:\\")));
+}
+
+TEST_F(ReadMesh, ObjWithContinuedIndentedAndTabbedLines_IsRead) {
+  std::string text = replaced(replaced(obj(cube()), "f ", "  f\t"), "v ", "\tv ");
+  expectCube(read("tabs.obj", text));
+  expectCube(read("cr.obj", replaced(text, "\n", "\r")));
+  text.insert(text.rfind(' '), " \\\r\n");
+  text.insert(text.find("v ") + 2, "\\\n  ");
+  expectCube(read("continued.obj", text));
+  expectCube(read("marked.obj", "\xEF\xBB\xBF" + text.substr(text.find('\n') + 1)));
+}
+
+TEST_F(ReadMesh, Obj_LinesThatCannotBeReadAreNamed) {
+  const std::string text = obj(cube());
+  const auto with = [&](const std::string& line) { return error("a.obj", line + "\n" + text); };
+  EXPECT_EQ(with("v 1,5 2,5 3,5"), "a.obj: line 1: '1,5' is not a number");
+  EXPECT_EQ(with("v 1 2 # 3"), "a.obj: line 1: a vertex has three coordinates");
+  EXPECT_EQ(with("f 1 2 x"), "a.obj: line 1: 'x' is not a corner of a face");
+  EXPECT_EQ(with("f 1.5 2 3"), "a.obj: line 1: '1.5' is not a corner of a face");
+  EXPECT_EQ(with("f"), "a.obj: line 1: a face has no corners");
+  EXPECT_EQ(with("F 1 2 3"), "a.obj: line 1: 'F' is no keyword: they are in lower case");
+  EXPECT_THAT(read("a.obj", text + "surf 0 1 0 1 1\ncall b.obj\n").info.notes(),
+              ::testing::ElementsAre("2 lines of curves, surfaces or other files: not read"));
+  EXPECT_EQ(error("a.obj", "\x89PNG"),
+            "a.obj: not an OBJ mesh: it has no line of a vertex (v x y z)");
+}
+
+TEST_F(ReadMesh, MarkedOrOneLinePly_IsRead) {
+  const std::string text = asciiPly(cube());
+  const std::size_t body = text.find("end_header\n") + 11;
+  expectCube(
+      read("line.ply", text.substr(0, body) + replaced(text.substr(body), "\n", " ") + "\n"));
+  expectCube(read("marked.ply", "\xEF\xBB\xBF" + text));
+  expectCube(read("binary.ply", "\xEF\xBB\xBF" + binaryPly(cube(), false)));
+  EXPECT_EQ(error("a.ply", replaced(text, "float x", "float X")),
+            "a.ply: header: the vertices have no properties x, y and z");
+  EXPECT_EQ(error("a.ply", replaced(text, "vertex_indices", "corners")),
+            "a.ply: header: the faces have no list vertex_indices");
+  EXPECT_EQ(error("a.ply", replaced(text, "element face", "elment face")),
+            "a.ply: header: bad line 'elment face 6'");
+  EXPECT_EQ(error("a.ply", replaced(text, "9.000000", "9,0")), "a.ply: '9,0' is not a number");
+}
+
+/// glTF 2.0, 3.12: a file that requires what a reader does not know is refused.
+TEST_F(ReadMesh, GltfThatRequiresAnUnknownExtension_IsRefused) {
+  folder_.write("cube.bin", gltfBuffer(cube()));
+  const auto with = [&](const std::string& name) {
+    std::string json = gltf(cube(), kOneNode, R"("uri":"cube.bin",)");
+    json.insert(1,
+                R"("extensionsUsed":[")" + name + R"("],"extensionsRequired":[")" + name + "\"],");
+    EXPECT_EQ(error("a.gltf", json, ""),
+              replaced(error("a.glb", glbFile(json, ""), ""), ".glb", ".gltf"))
+        << name;
+    return error("a.gltf", json, "");
+  };
+  for (const char* name :
+       {"EXT_mesh_gpu_instancing", "KHR_node_visibility", "KHR_mesh_quantization",
+        "KHR_draco_mesh_compression", "EXT_meshopt_compression", "VENDOR_new"})
+    EXPECT_EQ(with(name), "a.gltf: extensionsRequired[0]: '" + std::string(name) +
+                              "' is not read: export the mesh without it");
+  std::string json = gltf(cube(), kOneNode, R"("uri":"cube.bin",)");
+  json.insert(1, R"("extensionsRequired":["KHR_texture_transform","KHR_materials_unlit"],)");
+  expectCube(read("a.gltf", json, ""));
+}
+
+TEST_F(ReadMesh, GltfPositionsThatAreQuantizedOrCompressed_AreRefused) {
+  std::string json = gltf(cube(), kOneNode, "");
+  EXPECT_EQ(error("a.gltf", replaced(json, "5126", "5122"), ""),
+            "a.gltf: accessors[0].componentType: is not float (5126): export the mesh without "
+            "KHR_mesh_quantization");
+  EXPECT_EQ(error("a.gltf", replaced(json, R"({"bufferView":0,)", "{"), ""),
+            "a.gltf: accessors[0].bufferView: is missing: export the mesh without compression");
+  json.insert(json.find(R"({"buffer":0)") + 1,
+              R"("extensions":{"EXT_meshopt_compression":{"buffer":0}},)");
+  EXPECT_EQ(error("a.gltf", json, ""),
+            "a.gltf: bufferViews[0].extensions.EXT_meshopt_compression: is not read: export the "
+            "mesh without it");
+}
+
+/// What an optional extension, or the scene, changes about the geometry.
+TEST_F(ReadMesh, GltfPartsThatAreNotReadAsTheFileMeans_AreNoted) {
+  const auto notes = [&](const std::string& nodes) {
+    return read("a.glb", glb(cube(), nodes), "").info.notes();
+  };
+  using ::testing::ElementsAre;
+  using ::testing::IsEmpty;
+  EXPECT_THAT(notes(kOneNode), IsEmpty());
+  EXPECT_THAT(
+      notes(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{}}}}])"),
+      ElementsAre("1 node with instances (EXT_mesh_gpu_instancing): only one instance was read"));
+  EXPECT_THAT(notes(R"([{"mesh":0,"extensions":{"KHR_node_visibility":{"visible":false}}}])"),
+              ElementsAre("1 hidden node: read as visible"));
+  EXPECT_THAT(notes(R"([{"mesh":0,"skin":0}])"),
+              ElementsAre("1 node with a skin: read without its deformation"));
+  std::string json = gltf(cube(), kOneNode, "");
+  json.insert(json.find("\"indices\""), R"("targets":[{"POSITION":0}],)");
+  const std::string second = json.substr(json.find("{\"primitives\""));
+  json.insert(json.find("{\"primitives\""), second.substr(0, second.find("}]}") + 3) + ",");
+  const std::string bytes = glbFile(json, glbChunk(std::string("BIN\0", 4), gltfBuffer(cube())));
+  EXPECT_THAT(read("a.glb", bytes, "").info.notes(),
+              ElementsAre("1 mesh part with morph targets: read without them",
+                          "1 mesh part outside of the scene: left out"));
+  json.replace(json.find("\"nodes\":[0]"), 11, "\"nodes\":[]");
+  EXPECT_EQ(error("a.glb", glbFile(json, ""), ""),
+            "a.glb: scene: shows no mesh: export the mesh with a scene");
+}
+
+/// A double PLY as of a survey; single precision steps by 0.5 mm at 5 km.
+TEST_F(ReadMesh, MeshFarFromItsOrigin_IsNotedOrRefused) {
+  const auto at = [&](double offset_m) {
+    PolygonMesh mesh = cube();
+    for (Eigen::Vector3f& vertex : mesh.vertices)
+      vertex = 0.05F * vertex + Eigen::Vector3f(static_cast<float>(offset_m), 0.0F, 0.0F);
+    return mesh;
+  };
+  EXPECT_TRUE(read("near.ply", binaryPly(at(100.0), false)).info.notes().empty());
+  EXPECT_THAT(read("noted.ply", binaryPly(at(1000.0), false)).info.notes(),
+              ::testing::ElementsAre("the mesh is 1000 m from the origin, where coordinates are "
+                                     "rounded to 0.06104 mm: move the origin to the mesh"));
+  const std::string refusal =
+      ": vertices: the mesh is 5000 m from the origin, where coordinates are rounded to 0.4883 mm: "
+      "move the origin to the mesh";
+  EXPECT_EQ(error("far.ply", binaryPly(at(5000.0), false)), "far.ply" + refusal);
+  EXPECT_EQ(error("far.obj", obj(at(5000.0))), "far.obj" + refusal);
+  EXPECT_EQ(error("far.stl", asciiStl(at(5000.0))), "far.stl" + refusal);
+  const std::string nodes = R"([{"mesh":0,"translation":[5000,0,0],"scale":[0.05,0.05,0.05]}])";
+  EXPECT_EQ(error("far.glb", glb(cube(), nodes), ""), "far.glb" + refusal);
+  EXPECT_THAT(error("collapsed.ply", binaryPly(at(900'000.0), false)), HasSubstr("rounded to"));
+}
+
 /// Wherever a file is cut, it is refused: importers alone would take what is there.
 TEST_F(ReadMesh, RefusesEveryTruncation) {
   const std::pair<const char*, std::string> files[] = {
-      {"little.ply", binaryPly(cube(), false)}, {"big.ply", binaryPly(cube(), true)},
-      {"ascii.ply", asciiPly(cube())},          {"binary.stl", binaryStl(cube())},
-      {"ascii.stl", asciiStl(cube())},          {"mesh.glb", glb(cube())}};
+      {"little.ply", binaryPly(cube(), false)},
+      {"big.ply", binaryPly(cube(), true)},
+      {"ascii.ply", asciiPly(cube())},
+      {"binary.stl", binaryStl(cube())},
+      {"ascii.stl", asciiStl(cube())},
+      {"ascii2.stl", twoSolids()},
+      {"mesh.glb", glb(cube())},
+      {"strips.ply", stripsPly("binary_little_endian")}};
   for (const auto& [name, content] : files) {
     const bool text = std::string(name).starts_with("ascii");
     // A text without its last line break, or without the name of the solid, is still whole.
     const std::size_t last = content.size() - (text ? 8 : 1);
-    for (std::size_t size = 1; size <= last; size += 1 + content.size() / 211)
-      ASSERT_NE(error(name, content.substr(0, size)), "(nothing)")
-          << name << " cut to " << size << " of " << content.size();
+    for (std::size_t size = 1; size <= last; size += 1 + content.size() / 211) {
+      const std::string cut = content.substr(0, size);
+      if (cut.substr(std::min(cut.rfind('\n', size - 2) + 1, size)).starts_with("endsolid"))
+        continue;  // between two solids nothing shows that one follows
+      ASSERT_NE(error(name, cut), "(nothing)") << name << " cut to " << size;
+    }
     EXPECT_NE(error(name, content.substr(0, last)), "(nothing)") << name;
   }
   EXPECT_EQ(error("cut.ply", binaryPly(cube(), false).substr(0, 300)),
             "cut.ply: the PLY mesh is truncated");
-  folder_.write("cut.bin", gltfBuffer(cube()).substr(0, 100));
-  EXPECT_NE(error("cut.gltf", gltf(cube(), kOneNode, R"("uri":"cut.bin",)"), ""), "(nothing)");
+  const std::string buffer = gltfBuffer(cube());
+  const std::string json = gltf(cube(), kOneNode, R"("uri":"cut.bin",)");
+  for (std::size_t size = 1; size < buffer.size(); size += 3) {
+    folder_.write("cut.bin", buffer.substr(0, size));
+    ASSERT_NE(error("cut.gltf", json, ""), "(nothing)") << size;
+  }
+  folder_.write("cut.bin", buffer);
+  for (std::size_t size = 1; size < json.size(); size += 7)
+    ASSERT_NE(error("cut.gltf", json.substr(0, size), ""), "(nothing)") << size;
+}
+
+/// Of an OBJ only a last line without its end shows that it is cut.
+TEST_F(ReadMesh, ObjCutWithinALine_IsRefusedOrNoted) {
+  const std::string text = obj(cube());
+  for (std::size_t size = 1; size < text.size(); ++size) {
+    if (text[size - 1] == '\n') continue;
+    const std::string cut = text.substr(0, size);
+    if (error("cut.obj", cut) != "(nothing)") continue;
+    EXPECT_THAT(read("cut.obj", cut).info.notes(),
+                ::testing::Contains(HasSubstr("the file may be truncated")))
+        << size;
+  }
 }
 
 TEST_F(ReadMesh, RefusesOtherFiles) {
@@ -480,7 +696,7 @@ TEST_F(ReadMesh, RefusesCountsThatTheFileContradicts) {
   std::string stl = binaryStl(cube());
   stl[80] = 11;
   EXPECT_EQ(error("g.stl", stl),
-            "g.stl: header: declares 11 facets, but the file can hold only 12");
+            "g.stl: header: declares 11 facets, but 50 more bytes follow them");
 }
 
 TEST_F(ReadMesh, RefusesHugeDeclarationsBeforeReading) {

@@ -59,6 +59,17 @@ TEST_F(SceneMeshTest, Parts_ArePlacedByTheirTransforms) {
   EXPECT_NEAR(matchedBounds(view).maximum_m.x(), 1.0, 1e-6);
 }
 
+/// Vertices are stored in single precision, in STATION too.
+TEST_F(SceneMeshTest, PartFarFromTheStationsOrigin_IsRefused) {
+  part_.mesh_unit = "cm";
+  part_.frame_from_mesh.translation_m.x() = 100.0;
+  EXPECT_EQ(refusal({part_}), "(nothing)");
+  part_.frame_from_mesh.translation_m.x() = 5000.0;
+  EXPECT_EQ(refusal({part_}),
+            "cube.ply: vertices: the mesh is 5000 m from the origin, where coordinates are rounded "
+            "to 0.4883 mm: move the origin to the mesh");
+}
+
 TEST_F(SceneMeshTest, ReadsPartsFromFiles) {
   part_.mesh_unit = "cm";
   const SceneMesh scene = readScene(std::vector{part_});
