@@ -35,9 +35,10 @@ struct CameraArguments {
 };
 
 CameraModel modelNamed(const std::string& name) {
-  for (const CameraModel model :
-       {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt})
-    if (name == sessions::cameraModelName(model)) return model;
+  for (int i = 0; i <= static_cast<int>(kLastCameraModel); ++i)
+    if (const auto model = static_cast<CameraModel>(i);
+        !isCahvFamily(model) && name == sessions::cameraModelName(model))
+      return model;
   throw CLI::ValidationError("--as", "'" + name + "' cannot be fitted");
 }
 

@@ -64,7 +64,7 @@ void judge(JudgedFile& file, Read&& read) {
 
 std::string fieldOfViewText(const Camera& camera) {
   const double x_deg = 2.0 * std::atan(0.5 * camera.width / camera.fx) / kDegree_rad;
-  const double y_deg = 2.0 * std::atan(0.5 * camera.height / camera.fy) / kDegree_rad;
+  const double y_deg = 2.0 * std::atan(0.5 * camera.height / std::abs(camera.fy)) / kDegree_rad;
   return fixedText(x_deg, 1) + " x " + fixedText(y_deg, 1) + " deg";
 }
 

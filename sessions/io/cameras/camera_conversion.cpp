@@ -220,13 +220,6 @@ double costOf(const FittedCamera& fitted) {
          std::max(1, with_ray);
 }
 
-/// Numbers of coefficients to try; 0 for a pinhole.
-std::vector<int> coefficientCounts(CameraModel model) {
-  if (model == CameraModel::kPinhole) return {0};
-  if (model == CameraModel::kKannalaBrandt) return {4};
-  return {kPolynomialCount, 8};
-}
-
 /// Whether more coefficients are worth it: the worst error falls by a tenth and 0.001 px.
 bool isBetter(const FittedCamera& longer, const FittedCamera& shorter) {
   if (longer.unseen_count != shorter.unseen_count) return costOf(longer) < costOf(shorter);
@@ -315,7 +308,7 @@ void offer(const FittedCamera& fitted, BestFit& best) {
 /// a wide field from what distorts like `equidistant` (a fitted Kannala-Brandt camera), where there
 /// is one.
 std::vector<BestFit> fitGrowing(const Camera& start, const std::vector<Field>& fields,
-                                const std::vector<int>& counts, const FitCheck& check,
+                                std::span<const int> counts, const FitCheck& check,
                                 const BestFit& equidistant) {
   std::vector<BestFit> best(counts.size());
   std::vector<Camera> reached(counts.size(), start);

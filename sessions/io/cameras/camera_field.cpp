@@ -18,9 +18,17 @@ constexpr int kGrid = 16;
 
 /// From the optical axis to the end of the valid field.
 double fieldAngle_rad(const Camera& camera) {
-  const bool is_angle =
-      camera.model == CameraModel::kKannalaBrandt || camera.model == CameraModel::kCahvore;
-  return is_angle ? camera.valid_radius : std::atan(camera.valid_radius);
+  switch (camera.model) {
+    case CameraModel::kPinhole:
+    case CameraModel::kBrownConrady:
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+      return std::atan(camera.valid_radius);
+    case CameraModel::kKannalaBrandt:
+    case CameraModel::kCahvore:
+      return camera.valid_radius;
+  }
+  return std::nan("");
 }
 
 /// The same in the image, to the right of the axis, px.

@@ -2,6 +2,8 @@
 #include "sessions/io/cameras/camera_file.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,7 @@ constexpr const char* kOwnFrame = "CAMERA";
 /// By CameraModel.
 constexpr const char* kModelNames[] = {"pinhole", "brown_conrady", "kannala_brandt",
                                        "cahv",    "cahvor",        "cahvore"};
+static_assert(std::size(kModelNames) == static_cast<std::size_t>(kLastCameraModel) + 1);
 
 CahvModel readVectors(CameraModel model, const JsonReader& json) {
   CahvModel cahv;
@@ -202,6 +205,34 @@ nlohmann::ordered_json toJson(const CalibrationSigma& sigma) {
 
 const char* cameraModelName(CameraModel model) { return kModelNames[static_cast<int>(model)]; }
 
+std::span<const int> coefficientCounts(CameraModel model) {
+  static constexpr std::array kNone = {0};
+  static constexpr std::array kKannalaBrandt = {4};
+  static constexpr std::array kBrownConrady = {5, 8};
+  switch (model) {
+    case CameraModel::kPinhole:
+    case CameraModel::kCahv:
+    case CameraModel::kCahvor:
+    case CameraModel::kCahvore:
+      return kNone;
+    case CameraModel::kKannalaBrandt:
+      return kKannalaBrandt;
+    case CameraModel::kBrownConrady:
+      return kBrownConrady;
+  }
+  return kNone;
+}
+
+int coefficientCount(const Camera& camera) {
+  const std::span<const int> counts = coefficientCounts(camera.model);
+  const auto leavesZeros = [&camera](int count) {
+    return std::all_of(camera.distortion.begin() + count, camera.distortion.end(),
+                       [](double coefficient) { return coefficient == 0.0; });
+  };
+  const auto found = std::ranges::find_if(counts, leavesZeros);
+  return found == counts.end() ? counts.back() : *found;
+}
+
 std::optional<CameraModel> cahvModelOf(const std::string& name) {
   for (const CameraModel model : {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
     if (lowerCase(name) == cameraModelName(model)) return model;
@@ -241,14 +272,9 @@ nlohmann::ordered_json toJson(const Camera& camera) {
                                  {"fy", camera.fy},
                                  {"cx", camera.cx},
                                  {"cy", camera.cy}};
-  if (camera.model == CameraModel::kPinhole) return json;
+  const int count = coefficientCount(camera);
+  if (count == 0) return json;
   const auto& distortion = camera.distortion;
-  std::ptrdiff_t count = 4;
-  if (camera.model == CameraModel::kBrownConrady) {
-    const bool rational = std::any_of(distortion.begin() + 5, distortion.end(),
-                                      [](double coefficient) { return coefficient != 0.0; });
-    count = rational ? 8 : 5;
-  }
   json["dist"] = std::vector<double>(distortion.begin(), distortion.begin() + count);
   return json;
 }

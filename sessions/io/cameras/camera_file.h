@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -117,6 +118,12 @@ void writeCamera(const std::filesystem::path& file, const CameraFile& camera);
 
 /// Name of a model in files, e.g. "brown_conrady".
 const char* cameraModelName(CameraModel model);
+
+/// Numbers of distortion coefficients that a model is used with, ascending; 0 alone for models
+/// whose lens is not described by coefficients.
+std::span<const int> coefficientCounts(CameraModel model);
+/// The least of these numbers that leaves out zeros only.
+int coefficientCount(const Camera& camera);
 /// The model of the CAHV family of this name, in any case; empty for other names.
 std::optional<CameraModel> cahvModelOf(const std::string& name);
 
