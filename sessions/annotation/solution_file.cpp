@@ -90,8 +90,11 @@ std::string summaryLine(const AnnotationsSolution& solution) {
   std::string text = std::to_string(solution.annotations.size()) + " annotations, rms " +
                      fixedText(solution.rms_px, 3) + " px, ";
   if (solution.degrees_of_freedom == 0) return text + "no redundancy to check the pose";
-  return text + "noise " + fixedText(solution.noise_factor, 2) + " times the stated sigma (" +
-         std::to_string(solution.degrees_of_freedom) + " degrees of freedom)";
+  text += "noise " + fixedText(solution.noise_factor, 2) + " times the stated sigma (" +
+          std::to_string(solution.degrees_of_freedom) + " degrees of freedom)";
+  if (solution.noise_factor > kMostNoise)
+    text += "\n!: the residuals are far above their sigmas: check for swapped pairs";
+  return text;
 }
 
 /// The poses that came out: the camera's, or of several views the rig's and then each camera's.

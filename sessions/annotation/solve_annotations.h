@@ -20,6 +20,8 @@ struct SolveAnnotationsOptions {
 
 /// Number of standard deviations above which a residual is an outlier.
 inline constexpr double kOutlierSigmas = 3.0;
+/// Noise factor above which annotations do not belong to one pose, or their sigmas are wrong.
+inline constexpr double kMostNoise = 3.0;
 
 /// Residuals of an annotation under the solved pose.
 struct SolvedAnnotation {

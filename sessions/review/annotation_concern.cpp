@@ -10,7 +10,6 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kMostNoise = 3.0;  ///< residuals in stated sigmas
 constexpr double kLeastWeight = 0.5;
 
 std::vector<std::string> doubted(const CaseAnnotations& annotations,

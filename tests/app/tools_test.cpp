@@ -145,6 +145,13 @@ TEST_F(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
   solve(annotations, 0, {"--seed", kExample / "seed.json"});
 }
 
+TEST_F(WhsSolve, SwappedPairs_AreMentioned) {
+  sessions::Annotations annotations = trueAnnotations(6);
+  EXPECT_THAT(solve(annotations, 0).out, Not(HasSubstr("swapped pairs")));
+  std::swap(annotations.points[1].pixel, annotations.points[4].pixel);
+  EXPECT_THAT(solve(annotations, 0).out, HasSubstr("check for swapped pairs"));
+}
+
 TEST_F(WhsSolve, SaysWhenNoPoseAgrees) {
   sessions::Annotations annotations = trueAnnotations(6);
   for (sessions::PointPair& point : annotations.points)
