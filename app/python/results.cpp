@@ -18,10 +18,18 @@ using Path = std::filesystem::path;
 using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Rows2 = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
+/// As of annotations in files.
+constexpr double kLeastSigma_px = 1e-6;
+constexpr double kMostSigma_px = 1e4;
+
 py::dict solvePnp(const Rows3& points_in_station_m, const Rows2& pixels, const Path& camera,
                   double sigma_px, bool robust, const std::optional<Eigen::Matrix4d>& guess) {
   if (points_in_station_m.rows() != pixels.rows())
     throw py::value_error("as many pixels as points are needed");
+  if (!points_in_station_m.allFinite() || !pixels.allFinite())
+    throw py::value_error("points and pixels must be finite");
+  if (!(sigma_px >= kLeastSigma_px && sigma_px <= kMostSigma_px))
+    throw py::value_error("sigma_px must be from 1e-06 to 10000");
   sessions::AnnotatedView view;
   view.camera = sessions::readCameraFile(camera).camera;
   for (Eigen::Index i = 0; i < pixels.rows(); ++i) {

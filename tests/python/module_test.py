@@ -90,6 +90,9 @@ class Module(unittest.TestCase):
         self.assertLess(solved["rms_px"], 1e-6)
         with self.assertRaises(ValueError):
             boresight.solve_pnp(points[:2], pixels[:2], EXAMPLES / "bc" / "camera.json")
+        for sigma_px in (0, -1, float("nan"), float("inf")):
+            with self.assertRaisesRegex(ValueError, "sigma_px must be"):
+                boresight.solve_pnp(points, pixels, EXAMPLES / "bc" / "camera.json", sigma_px)
 
     def test_checks_are_those_of_review(self):
         checks = {check["id"]: check for check in boresight.check(self.run_)}
