@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "app/calibration_text.h"
 #include "app/commands.h"
@@ -12,6 +13,7 @@
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/session/session_file.h"
+#include "sessions/session/stated_inputs.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::app {
@@ -69,6 +71,7 @@ sessions::CameraCalibration calibrateSession(const std::string& file,
     auto calibration = sessions::calibrateCamera(camera, views, freeOf(arguments));
     std::cout << file << ": " << views.size() << " images, rms " << fixedText(calibration.rms_px, 3)
               << " px\n";
+    for (const sessions::OutlyingView& view : calibration.outlying) note(outlyingText(view));
     printParameters(calibration.parameters, calibration.undetermined, calibration.noise_factor,
                     "add images from other distances and turned about the view axis");
     const auto values = sessions::calibratedValues(camera, calibration);
@@ -80,35 +83,76 @@ sessions::CameraCalibration calibrateSession(const std::string& file,
   }
 }
 
-/// Changes of each parameter from the first session, in sigmas of the difference.
-void printDrift(const std::vector<sessions::CameraCalibration>& calibrations,
-                const std::vector<std::string>& files) {
+/// A session's camera, before and after.
+struct CalibratedSession {
+  std::string file;
+  Camera camera;
+  sessions::CameraCalibration calibration;
+  sessions::CalibrationSigma former;  ///< as stated or assumed
+  std::optional<sessions::CameraReference> reference;
+};
+
+/// Differences between the adjusted cameras and that of the first session, in sigmas of the
+/// difference. The cameras from which the adjustments begin do not count.
+void printDrift(const std::vector<CalibratedSession>& sessions) {
+  const auto valuesOf = [](const CalibratedSession& session) {
+    return calibratedValues(session.camera, session.calibration);
+  };
+  const auto first_values = valuesOf(sessions.front());
   sessions::TextTable table({"session", "parameter", "change", "1 sigma", "in sigmas"});
-  for (std::size_t i = 1; i < calibrations.size(); ++i)
-    for (std::size_t k = 0; k < calibrations[i].parameters.size(); ++k) {
-      const auto& first = calibrations[0].parameters[k];
-      const auto& later = calibrations[i].parameters[k];
-      const double change = later.value - first.value;
+  for (std::size_t i = 1; i < sessions.size(); ++i) {
+    const auto values = valuesOf(sessions[i]);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto& first = first_values[k];
+      const auto& later = values[k];
+      const double change = later.after - first.after;
       const double sigma = std::hypot(first.sigma, later.sigma);
-      table.add({files[i], later.name, parameterText(change), parameterText(sigma),
+      const std::string name = later.name + (later.unit.empty() ? "" : ", " + later.unit);
+      table.add({sessions[i].file, name, parameterText(change), parameterText(sigma),
                  std::isfinite(sigma) ? fixedText(change / sigma, 1) : "-"});
     }
-  std::cout << "drift since " << files.front() << "\n" << table.text();
+  }
+  std::cout << "drift since " << sessions.front().file << "\n" << table.text();
+}
+
+/// InputError where the parameters of two sessions cannot be compared.
+void requireSameKind(const CalibratedSession& first, const CalibratedSession& later) {
+  const bool same = first.camera.model == later.camera.model &&
+                    first.camera.width == later.camera.width &&
+                    first.camera.height == later.camera.height &&
+                    first.calibration.parameters.size() == later.calibration.parameters.size();
+  if (!same)
+    throw sessions::InputError(
+        later.file, "camera",
+        "has another model or image size than that of " + first.file + "; calibrate one camera");
+}
+
+void writeCalibrated(const std::string& out, const CalibratedSession& session,
+                     const sessions::FreeParameters& free) {
+  const auto sigma = session.calibration.sigma(session.former);
+  if (!sigma)
+    note("calibration_sigma is not written: a parameter is not determined");
+  else if (!free.focal || !free.centre)
+    note("calibration_sigma of what is not adjusted stays as before: " +
+         fixedText(100.0 * sigma->focal_relative, 3) + " %, " +
+         fixedText(sigma->principal_point_px, 2) + " px");
+  sessions::writeCamera(out,
+                        sessions::CameraFile{session.calibration.camera, session.reference, sigma});
 }
 
 int calibrate(const CalibrateArguments& arguments) {
   requireWritable({arguments.out});
-  std::vector<sessions::CameraCalibration> calibrations;
-  std::optional<sessions::CameraReference> reference;  // of the last session
+  std::vector<CalibratedSession> calibrated;
   for (const std::string& file : arguments.sessions) {
     const sessions::Session session = sessions::readSessionFile(file).session;
-    calibrations.push_back(calibrateSession(file, arguments, session));
-    reference = session.cases.front()->camera_reference;
+    sessions::CameraCalibration calibration = calibrateSession(file, arguments, session);
+    const sessions::SessionCase& first = *session.cases.front();
+    calibrated.push_back({file, first.camera, std::move(calibration),
+                          sessions::InputSigmas(first).calibration, first.camera_reference});
+    requireSameKind(calibrated.front(), calibrated.back());
   }
-  if (calibrations.size() > 1) printDrift(calibrations, arguments.sessions);
-  if (!arguments.out.empty())
-    sessions::writeCamera(arguments.out, sessions::CameraFile{calibrations.back().camera, reference,
-                                                              calibrations.back().sigma()});
+  if (calibrated.size() > 1) printDrift(calibrated);
+  if (!arguments.out.empty()) writeCalibrated(arguments.out, calibrated.back(), freeOf(arguments));
   std::cout << std::flush;
   return kDone;
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "app/calibration_text.h"
 #include "app/commands.h"
@@ -36,6 +39,8 @@ struct HandEyeArguments {
 /// Observations of the arm from all sessions.
 struct ArmObservations {
   std::vector<sessions::ArmPosture> postures;
+  /// Number of each station of each session: the arm's base may have moved in between.
+  std::map<std::pair<std::string, std::string>, std::size_t> stations;
   std::optional<Pose> start;  ///< the first case's camera_from_end_effector
 };
 
@@ -58,15 +63,20 @@ std::optional<sessions::ArmPosture> postureOf(const sessions::SessionCase& sessi
   return std::nullopt;
 }
 
-void addObservations(const sessions::Session& session, const sessions::FrameName& arm,
+void addObservations(const std::string& file, const sessions::FrameName& arm,
                      ArmObservations& observations) {
+  const sessions::Session session = sessions::readSessionFile(file).session;
   for (const auto& session_case : session.cases) {
-    const sessions::RunRecord* record = session.lastRunOf(session_case->id);
-    if (record == nullptr) continue;
-    const sessions::LocalizationTrace run = sessions::loadSnapshot(*record);
+    if (session.lastRunOf(session_case->id) == nullptr) continue;
+    const sessions::LocalizationTrace run =
+        sessions::loadSnapshot(sessions::currentRunOf(session, session_case->id));
     if (!run.converged()) continue;
-    if (const auto posture = postureOf(*session_case, arm, run.camera_from_station))
+    if (auto posture = postureOf(*session_case, arm, run.camera_from_station)) {
+      const auto next = observations.stations.size();
+      posture->station =
+          observations.stations.try_emplace({file, session_case->station}, next).first->second;
       observations.postures.push_back(*posture);
+    }
     if (!observations.start) observations.start = session_case->camera_from_end_effector;
   }
 }
@@ -104,10 +114,11 @@ int handEye(const HandEyeArguments& arguments) {
   requireWritable({arguments.out});
   ArmObservations observations;
   for (const std::string& file : arguments.sessions)
-    addObservations(sessions::readSessionFile(file).session, {arguments.arm, {}}, observations);
+    addObservations(file, {arguments.arm, {}}, observations);
   const sessions::HandEye hand_eye = handEyeOf(arguments, observations);
   const std::size_t postures = observations.postures.size();
-  std::cout << postures << " postures; changes of camera_from_end_effector\n";
+  std::cout << postures << " postures at " << observations.stations.size()
+            << " station(s); changes of camera_from_end_effector\n";
   printParameters(hand_eye.parameters, hand_eye.undetermined, hand_eye.noise_factor, kAdvice);
   std::cout << sessions::poseText(hand_eye.camera_from_end_effector, hand_eye.covariance,
                                   "camera_from_end_effector")

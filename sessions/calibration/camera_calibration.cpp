@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include <ceres/ceres.h>
 
 #include "core/geometry/pose.h"
 #include "sessions/calibration/dense_jacobian.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/session/stated_inputs.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -19,6 +23,7 @@ namespace {
 constexpr int kCoefficients = 8;
 constexpr int kCameraSize = 3 + kCoefficients;  ///< focal, centre, distortion
 constexpr double kLossSigmas = 3.0;
+constexpr double kFarOut_sigmas = 10.0;
 constexpr int kMostIterations = 100;
 /// Changes that are large: 5 % of the focal length, 50 px, 0.5 of a coefficient.
 constexpr double kFocalScale = 0.05;
@@ -63,21 +68,16 @@ struct Residual {
   }
 };
 
-int coefficientsOf(const Camera& camera) {
-  if (camera.model == CameraModel::kKannalaBrandt) return 4;
-  if (camera.model != CameraModel::kBrownConrady) return 0;
-  return camera.distortion[5] != 0.0 || camera.distortion[6] != 0.0 || camera.distortion[7] != 0.0
-             ? 8
-             : 5;
-}
-
 /// Indices into a CameraChange that are adjusted.
 std::vector<int> freeIndices(const Camera& camera, const FreeParameters& free) {
   std::vector<int> indices;
   if (free.focal) indices.push_back(0);
   if (free.centre) indices.insert(indices.end(), {1, 2});
-  if (free.distortion)
-    for (int i = 0; i < coefficientsOf(camera); ++i) indices.push_back(3 + i);
+  const int coefficients = free.distortion ? coefficientCount(camera) : 0;
+  if (free.distortion && coefficients == 0)
+    throw std::invalid_argument(
+        "this camera model has no distortion that can be adjusted; free focal and centre only");
+  for (int i = 0; i < coefficients; ++i) indices.push_back(3 + i);
   return indices;
 }
 
@@ -135,43 +135,75 @@ struct Adjustment {
       throw std::runtime_error("the adjustment does not converge; check the observations");
   }
 
-  /// Rows of weighted residuals; free camera parameters first.
+  /// Rows of residuals over their sigmas, free camera parameters first; without the loss, which
+  /// the noise factor accounts for.
   Eigen::MatrixXd jacobian() {
     ceres::Problem::EvaluateOptions options;
+    options.apply_loss_function = false;
     options.parameter_blocks.push_back(camera.data());
     for (PoseChange& pose : poses) options.parameter_blocks.push_back(pose.data());
     return denseJacobian(problem, options);
   }
 };
 
-/// Sums over the residuals of the adjusted camera, without the loss.
+/// Length of an observation's residual in sigmas under the adjusted camera.
+std::optional<double> residualOf(const CameraCalibration& result, std::size_t view,
+                                 const PointObservation& observation) {
+  const PoseChange none{};
+  const CameraChange same{};
+  std::array<double, 2> residual{};
+  if (!Residual{&result.camera, &result.camera_from_station[view], &observation}(
+          same.data(), none.data(), residual.data()))
+    return std::nullopt;
+  return std::hypot(residual[0], residual[1]);
+}
+
+/// Of the adjusted camera.
 void measureResiduals(std::span<const CalibrationView> views, CameraCalibration& result) {
-  double weighted = 0.0;
-  double squares = 0.0;
+  NoiseMeter noise(kLossSigmas);
+  double squares_px2 = 0.0;
   std::size_t count = 0;
   for (std::size_t v = 0; v < views.size(); ++v)
     for (const PointObservation& observation : views[v].points) {
-      const PoseChange none{};
-      const CameraChange same{};
-      std::array<double, 2> residual{};
-      if (!Residual{&result.camera, &result.camera_from_station[v], &observation}(
-              same.data(), none.data(), residual.data()))
-        continue;
-      const double square = residual[0] * residual[0] + residual[1] * residual[1];
-      weighted += square;
-      squares += square * observation.sigma_px * observation.sigma_px;
+      const auto residual = residualOf(result, v, observation);
+      if (!residual) continue;
+      noise.add(*residual * *residual, observation.normal.isZero(0.0) ? 2 : 1);
+      squares_px2 += *residual * *residual * observation.sigma_px * observation.sigma_px;
       ++count;
     }
-  if (count > 0) result.rms_px = std::sqrt(squares / static_cast<double>(count));
-  if (result.degrees_of_freedom > 0)
-    result.noise_factor = std::sqrt(weighted / result.degrees_of_freedom);
+  if (count > 0) result.rms_px = std::sqrt(squares_px2 / static_cast<double>(count));
+  result.noise_factor = noise.noiseFactor(result.degrees_of_freedom);
+}
+
+std::vector<OutlyingView> outlyingViews(std::span<const CalibrationView> views,
+                                        const CameraCalibration& result) {
+  const double limit_sigmas = kFarOut_sigmas * std::max(1.0, result.noise_factor);
+  std::vector<OutlyingView> outlying;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    OutlyingView view{views[v].case_id, 0, static_cast<int>(views[v].points.size()), 0.0};
+    for (const PointObservation& observation : views[v].points) {
+      const double residual = residualOf(result, v, observation).value_or(0.0);
+      if (residual <= limit_sigmas) continue;
+      ++view.far_out;
+      view.largest_px = std::max(view.largest_px, residual * observation.sigma_px);
+    }
+    if (view.far_out > 0) outlying.push_back(view);
+  }
+  std::ranges::stable_sort(outlying, std::ranges::greater(), &OutlyingView::largest_px);
+  return outlying;
 }
 
 }  // namespace
 
-std::optional<CalibrationSigma> CameraCalibration::sigma() const {
-  double focal = std::numeric_limits<double>::infinity();
-  double centre = std::numeric_limits<double>::infinity();
+std::string outlyingText(const OutlyingView& view) {
+  return view.case_id + ": " + std::to_string(view.far_out) + " of " +
+         std::to_string(view.observations) + " observations are far out, by up to " +
+         fixedText(view.largest_px, 1) + " px: check for swapped pairs";
+}
+
+std::optional<CalibrationSigma> CameraCalibration::sigma(const CalibrationSigma& former) const {
+  double focal = former.focal_relative;
+  double centre = former.principal_point_px;
   for (const CalibrationParameter& parameter : parameters) {
     if (parameter.name == "focal_relative") focal = parameter.sigma;
     if (parameter.name == "centre_x_px") centre = parameter.sigma;
@@ -201,6 +233,7 @@ CameraCalibration calibrateCamera(const Camera& camera, std::span<const Calibrat
   for (const int index : indices)
     result.parameters.push_back(parameterOf(index, result.camera, adjustment.camera));
   measureResiduals(views, result);
+  result.outlying = outlyingViews(views, result);
   const double noise = std::max(1.0, result.noise_factor);
   const Eigen::MatrixXd information =
       reducedInformation(adjustment.jacobian(), static_cast<Eigen::Index>(indices.size())) /
@@ -219,14 +252,15 @@ CameraCalibration calibrateCameraOf(const Session& session, const std::string& c
 
 Session withCalibration(const Session& session, const std::string& case_id,
                         const CameraCalibration& calibration) {
-  const Camera former = knownCase(session, case_id).camera;
+  const Camera camera = knownCase(session, case_id).camera;
   Session next = session;
   for (const auto& session_case : session.cases) {
-    if (!(session_case->camera == former)) continue;
+    if (!(session_case->camera == camera)) continue;
     SessionCase changed = *session_case;
     changed.camera = calibration.camera;
     changed.camera_covariance.reset();  // that of the former camera
-    if (const auto sigma = calibration.sigma()) changed.calibration_sigma = sigma;
+    const CalibrationSigma former = InputSigmas(*session_case).calibration;
+    if (const auto sigma = calibration.sigma(former)) changed.calibration_sigma = sigma;
     next = withCase(next, std::move(changed));
   }
   return next;

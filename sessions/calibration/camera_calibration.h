@@ -15,13 +15,25 @@
 
 namespace boresight::sessions {
 
-/// Parameters to be adjusted; the others are kept. The distortion of CAHV-family and pinhole
-/// cameras is always kept.
+/// Parameters to be adjusted; the others are kept. CAHV-family and pinhole cameras have no
+/// distortion that can be adjusted.
 struct FreeParameters {
   bool focal = true;
   bool centre = true;
   bool distortion = false;
 };
+
+/// Observations of a view whose residuals are beyond 10 sigma, in units of the noise factor: two
+/// points may be swapped.
+struct OutlyingView {
+  std::string case_id;
+  int far_out = 0;       ///< number of them
+  int observations = 0;  ///< of the view
+  double largest_px = 0.0;
+};
+
+/// "c3: 2 of 30 observations are far out, by up to 85.3 px: check for swapped pairs".
+std::string outlyingText(const OutlyingView& view);
 
 /// The adjusted camera. Parameters: `focal_relative` (change of fx and fy together),
 /// `centre_x_px`, `centre_y_px` (changes), and the distortion's coefficients (values).
@@ -33,18 +45,21 @@ struct CameraCalibration {
   std::vector<Undetermined> undetermined;
   std::vector<Pose> camera_from_station;  ///< by view
   double rms_px = 0.0;
-  /// Root of the weighted squares over the degrees of freedom: 1 when the observations are as
-  /// accurate as their sigmas state; multiplies all sigmas where above 1.
+  /// As of NoiseMeter: 1 when the observations are as accurate as their sigmas state; multiplies
+  /// all sigmas where above 1.
   double noise_factor = 1.0;
   int degrees_of_freedom = 0;
+  std::vector<OutlyingView> outlying;  ///< views with observations far out, the farthest first
 
-  /// For camera.json; empty unless focal length and centre are determined.
-  std::optional<CalibrationSigma> sigma() const;
+  /// For camera.json. Of what was not adjusted the `former` sigma; empty when the focal length or
+  /// the centre was adjusted and is not determined.
+  std::optional<CalibrationSigma> sigma(const CalibrationSigma& former) const;
 };
 
 /// Adjusts the camera and the pose of every view, with a Cauchy loss of 3 sigma. All views are of
-/// one camera. `std::invalid_argument` when nothing is free, there are no views, or fewer
-/// observations than unknowns; `std::runtime_error` when the adjustment does not converge.
+/// one camera. `std::invalid_argument` when nothing is free, or the distortion of a camera without
+/// one, there are no views, or fewer observations than unknowns; `std::runtime_error` when the
+/// adjustment does not converge.
 CameraCalibration calibrateCamera(const Camera& camera, std::span<const CalibrationView> views,
                                   const FreeParameters& free);
 

@@ -4,9 +4,10 @@
 namespace boresight::sessions {
 
 Eigen::MatrixXd denseJacobian(ceres::Problem& problem,
-                              const ceres::Problem::EvaluateOptions& options, double* cost) {
+                              const ceres::Problem::EvaluateOptions& options,
+                              std::vector<double>* residuals) {
   ceres::CRSMatrix sparse;
-  problem.Evaluate(options, cost, nullptr, nullptr, &sparse);
+  problem.Evaluate(options, nullptr, residuals, nullptr, &sparse);
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row)
     for (int k = sparse.rows[static_cast<std::size_t>(row)];

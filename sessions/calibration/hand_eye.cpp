@@ -48,22 +48,42 @@ std::vector<CalibrationParameter> parametersOf(const std::array<double, 6>& chan
   return parameters;
 }
 
+/// base_from_station by each station's first posture.
+std::vector<Pose> stationStarts(std::span<const ArmPosture> postures,
+                                const Pose& camera_from_end_effector) {
+  std::vector<Pose> starts;
+  std::vector<bool> known;
+  for (const ArmPosture& posture : postures) {
+    if (posture.station >= starts.size()) {
+      starts.resize(posture.station + 1);
+      known.resize(posture.station + 1);
+    }
+    if (known[posture.station]) continue;
+    known[posture.station] = true;
+    starts[posture.station] = posture.base_from_end_effector * camera_from_end_effector.inverse() *
+                              posture.camera_from_station;
+  }
+  if (std::ranges::find(known, false) != known.end())
+    throw std::invalid_argument("a station has no posture");
+  return starts;
+}
+
 }  // namespace
 
 HandEye calibrateHandEye(std::span<const ArmPosture> postures,
                          const Pose& camera_from_end_effector_start) {
-  if (postures.size() < 3) throw std::invalid_argument("three postures of the arm are needed");
-  const Pose station_start = postures.front().base_from_end_effector *
-                             camera_from_end_effector_start.inverse() *
-                             postures.front().camera_from_station;
+  std::vector<Pose> station_start = stationStarts(postures, camera_from_end_effector_start);
+  if (postures.size() < 3 || postures.size() <= station_start.size())
+    throw std::invalid_argument("three postures of the arm are needed, two of them at one station");
   std::array<double, 6> hand{};
-  std::array<double, 6> base{};
+  std::vector<std::array<double, 6>> base(station_start.size());
   ceres::Problem problem;
   using Cost = ceres::NumericDiffCostFunction<ArmResidual, ceres::CENTRAL, 6, 6, 6>;
   for (const ArmPosture& posture : postures)
-    problem.AddResidualBlock(
-        new Cost(new ArmResidual{&posture, &camera_from_end_effector_start, &station_start}),
-        new ceres::CauchyLoss(kArmLossSigmas), hand.data(), base.data());
+    problem.AddResidualBlock(new Cost(new ArmResidual{&posture, &camera_from_end_effector_start,
+                                                      &station_start[posture.station]}),
+                             new ceres::CauchyLoss(kArmLossSigmas), hand.data(),
+                             base[posture.station].data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 200;
@@ -76,15 +96,21 @@ HandEye calibrateHandEye(std::span<const ArmPosture> postures,
   HandEye result;
   result.camera_from_end_effector =
       perturbed(Eigen::Map<const Vector6d>(hand.data()), camera_from_end_effector_start);
-  result.base_from_station = perturbed(Eigen::Map<const Vector6d>(base.data()), station_start);
+  for (std::size_t i = 0; i < base.size(); ++i)
+    result.base_from_station.push_back(
+        perturbed(Eigen::Map<const Vector6d>(base[i].data()), station_start[i]));
   result.parameters = parametersOf(hand);
   ceres::Problem::EvaluateOptions evaluate;
-  evaluate.parameter_blocks = {hand.data(), base.data()};
+  evaluate.parameter_blocks = {hand.data()};
+  for (std::array<double, 6>& change : base) evaluate.parameter_blocks.push_back(change.data());
   evaluate.apply_loss_function = false;
-  double half_squares = 0.0;
-  const Eigen::MatrixXd jacobian = denseJacobian(problem, evaluate, &half_squares);
-  const double freedom = 6.0 * static_cast<double>(postures.size()) - 12.0;
-  if (freedom > 0.0) result.noise_factor = std::sqrt(2.0 * half_squares / freedom);
+  std::vector<double> residuals;
+  const Eigen::MatrixXd jacobian = denseJacobian(problem, evaluate, &residuals);
+  NoiseMeter meter(kArmLossSigmas);
+  for (std::size_t i = 0; i < residuals.size(); i += 6)
+    meter.add(Eigen::Map<const Vector6d>(&residuals[i]).squaredNorm(), 6);
+  result.noise_factor = meter.noiseFactor(
+      6.0 * (static_cast<double>(postures.size()) - 1.0 - static_cast<double>(base.size())));
   const double noise = std::max(1.0, result.noise_factor);
   result.covariance = judgeInformation(reducedInformation(jacobian, 6) / (noise * noise),
                                        result.parameters, result.undetermined);

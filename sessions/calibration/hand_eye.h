@@ -3,6 +3,7 @@
 // camera_from_station by images (AX = ZB; Tsai and Lenz 1989, Strobl and Hirzinger 2006).
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,12 @@ struct ArmPosture {
   Pose camera_from_station;           ///< by the image
   double sigma_rotation_rad = 1e-3;   ///< of both together, per axis
   double sigma_translation_m = 1e-3;  ///< of both together, per axis, at the end effector
+  std::size_t station = 0;            ///< number of the localized station, from 0
 };
 
 struct HandEye {
   Pose camera_from_end_effector;
-  Pose base_from_station;
+  std::vector<Pose> base_from_station;  ///< by station
   /// Over (rotation rad, translation m) of camera_from_end_effector, left perturbation, camera
   /// frame, without undetermined directions.
   Matrix6d covariance = Matrix6d::Zero();
@@ -30,9 +32,10 @@ struct HandEye {
   double noise_factor = 1.0;  ///< as of CameraCalibration
 };
 
-/// Adjusts both transforms from `camera_from_end_effector_start`. Postures that turn about one axis
-/// only leave a direction undetermined, as listed in `undetermined`. std::invalid_argument for
-/// fewer than three postures, std::runtime_error when the adjustment does not converge.
+/// Adjusts the camera's transform from `camera_from_end_effector_start`, and that of each station.
+/// Postures that turn about one axis only leave a direction undetermined, as listed in
+/// `undetermined`. std::invalid_argument for fewer than three postures, or fewer than one more than
+/// stations, std::runtime_error when the adjustment does not converge.
 HandEye calibrateHandEye(std::span<const ArmPosture> postures,
                          const Pose& camera_from_end_effector_start);
 

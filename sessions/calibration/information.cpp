@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/calibration/information.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,8 @@
 namespace boresight::sessions {
 namespace {
 
+/// Mean derivative of the influence below which it says nothing: that of noise 7 times as large.
+constexpr double kLeastSlope = 0.1;
 constexpr double kNotableShare = 0.1;  ///< of a unit eigenvector, squared
 
 std::string namesOf(const Eigen::VectorXd& direction,
@@ -23,6 +26,21 @@ std::string namesOf(const Eigen::VectorXd& direction,
 }
 
 }  // namespace
+
+void NoiseMeter::add(double square, int dimensions) {
+  const double weight = 1.0 / (1.0 + square / (loss_sigmas_ * loss_sigmas_));
+  const double by_square = -weight * weight / (loss_sigmas_ * loss_sigmas_);
+  squares_ += square;
+  influence_ += weight * weight * square;
+  slope_ += dimensions * weight + 2.0 * by_square * square;
+  dimensions_ += dimensions;
+}
+
+double NoiseMeter::noiseFactor(double freedom) const {
+  if (!(freedom > 0.0)) return 1.0;
+  if (!(slope_ > kLeastSlope * dimensions_)) return std::sqrt(squares_ / freedom);
+  return std::sqrt(influence_ / freedom) * dimensions_ / slope_;
+}
 
 Eigen::MatrixXd reducedInformation(const Eigen::MatrixXd& jacobian, Eigen::Index count) {
   const Eigen::Index others = jacobian.cols() - count;
@@ -52,9 +70,11 @@ Eigen::MatrixXd judgeInformation(const Eigen::MatrixXd& information,
       continue;
     }
     lost += direction.cwiseAbs2();
+    // Ascending: the first of equal names has the largest sigma.
+    const std::string names = namesOf(direction, parameters);
+    if (std::ranges::find(undetermined, names, &Undetermined::text) != undetermined.end()) continue;
     undetermined.push_back(
-        {value > 0.0 ? 1.0 / std::sqrt(value) : std::numeric_limits<double>::infinity(),
-         namesOf(direction, parameters)});
+        {value > 0.0 ? 1.0 / std::sqrt(value) : std::numeric_limits<double>::infinity(), names});
   }
   covariance = scales.asDiagonal() * covariance * scales.asDiagonal();
   for (Eigen::Index i = 0; i < count; ++i)

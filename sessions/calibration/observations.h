@@ -34,7 +34,7 @@ enum class ObservationSource { kAnnotations, kRuns };
 inline constexpr std::size_t kFewestPoints = 6;
 /// One view for each case with at least `kFewestPoints` observations: enabled point annotations, or
 /// edge places of the last refinement of the last converged run. InputError when a run cannot be
-/// read.
+/// read, or has other inputs than its case has now.
 std::vector<CalibrationView> observationsOf(const Session& session, ObservationSource source);
 
 }  // namespace boresight::sessions

@@ -10,6 +10,7 @@
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
+#include "sessions/session/stated_inputs.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/calibration_session.h"
 #include "tests/support/matchers.h"
@@ -73,6 +74,54 @@ TEST_F(Calibrate, FindsALongerFocalLengthWritesTheCameraAndReportsTheDriftBetwee
   EXPECT_NEAR(written.camera.fx / stated.fx, kLongerFocalLength, 4.0 * sigma);
   EXPECT_THAT(runWhs({"calibrate", file_, file_}, 0).out,
               AllOf(HasSubstr("drift since"), HasSubstr(" 0.0\n")));
+  // The same observations, from the calibrated camera.
+  Session calibrated = sessionOfALongerLens(8);
+  for (std::size_t i = 0; i < calibrated.cases.size(); ++i) {
+    SessionCase session_case = *calibrated.cases[i];
+    session_case.camera = written.camera;
+    calibrated.cases[i] = session_case;
+  }
+  const std::string later = folder_ / "later.boresight.json";
+  sessions::writeSessionFile(later, calibrated);
+  const std::string drift = runWhs({"calibrate", file_, later}, 0).out;
+  EXPECT_THAT(drift.substr(drift.find("drift since")), HasSubstr("focal length, px"));
+  int unchanged = 0;
+  for (std::size_t at = drift.find("drift since");
+       (at = drift.find("0.0\n", at)) != std::string::npos; ++at)
+    ++unchanged;
+  EXPECT_EQ(unchanged, 3) << drift;
+}
+
+TEST_F(Calibrate, FocalAlone_KeepsTheSigmaOfTheCentreAndSaysSo) {
+  const std::string out = folder_ / "camera.json";
+  sessions::writeSessionFile(file_, sessionOfALongerLens(8));
+  EXPECT_THAT(runWhs({"calibrate", file_, "--free", "focal", "--out", out}, 0).err,
+              HasSubstr("what is not adjusted stays as before"));
+  const sessions::CameraFile written = sessions::readCameraFile(out);
+  ASSERT_TRUE(written.calibration_sigma);
+  const sessions::InputSigmas former(*sessionOf(1).cases.front());
+  EXPECT_EQ(written.calibration_sigma->principal_point_px, former.calibration.principal_point_px);
+  EXPECT_NE(written.calibration_sigma->focal_relative, former.calibration.focal_relative);
+}
+
+TEST_F(Calibrate, RunsOfAnotherCamera_AreRefused) {
+  const std::string file = sessionOfPostures(placesOfTheCamera(3), Pose(), Pose());
+  Session session = sessions::readSessionFile(file).session;
+  SessionCase changed = *session.cases[1];
+  changed.camera.fx *= 1.03;
+  changed.camera.fy *= 1.03;
+  session.cases[1] = changed;
+  sessions::writeSessionFile(file_, session);
+  EXPECT_THAT(refusal({"hand-eye", file_, "--arm", "ARM_BASE"}),
+              HasSubstr("c1: runs: the inputs have changed since the last run"));
+  for (std::size_t i : {0u, 2u}) {
+    SessionCase same = *session.cases[i];
+    same.camera = changed.camera;
+    session.cases[i] = same;
+  }
+  sessions::writeSessionFile(file_, session);
+  EXPECT_THAT(refusal({"calibrate", file_, "--from", "runs"}),
+              HasSubstr("the inputs have changed since the last run"));
 }
 
 TEST_F(Calibrate, RefusesWhatCannotBeCalibratedInOneSentence) {

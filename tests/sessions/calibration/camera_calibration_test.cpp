@@ -3,11 +3,15 @@
 
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "tests/support/coverage.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -18,12 +22,12 @@ Camera trueCamera(CameraModel model = CameraModel::kPinhole) {
   return test::makeCamera(model, 1280, 960, 1500.0, {-0.1, 0.03, 1e-4, -2e-4, 0.0});
 }
 
-/// A station of 30 points seen from `count` places at 0.3 to 0.8 m, all around and rolled.
+/// A station of `points` points seen from `count` places at 0.3 to 0.8 m, all around and rolled.
 std::vector<CalibrationView> viewsOf(const Camera& camera, int count, double noise_px,
-                                     Random& random) {
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < 30; ++i)
-    points.emplace_back(random.uniform(-0.08, 0.08), random.uniform(-0.06, 0.06),
+                                     Random& random, int points = 30) {
+  std::vector<Eigen::Vector3d> places;
+  for (int i = 0; i < points; ++i)
+    places.emplace_back(random.uniform(-0.08, 0.08), random.uniform(-0.06, 0.06),
                         random.uniform(-0.03, 0.03));
   std::vector<CalibrationView> views;
   for (int v = 0; v < count; ++v) {
@@ -33,11 +37,12 @@ std::vector<CalibrationView> viewsOf(const Camera& camera, int count, double noi
     pose.translation_m = {random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
                           random.uniform(0.3, 0.8)};
     CalibrationView& view = views.emplace_back();
-    for (const Eigen::Vector3d& point : points) {
+    view.case_id = "c" + std::to_string(v);
+    for (const Eigen::Vector3d& place : places) {
       Eigen::Vector2d pixel;
-      if (!project(camera, pose * point, pixel)) continue;
+      if (!project(camera, pose * place, pixel)) continue;
       pixel += noise_px * Eigen::Vector2d(random.normal(), random.normal());
-      view.points.push_back({point, pixel, Eigen::Vector2d::Zero(), noise_px});
+      view.points.push_back({place, pixel, Eigen::Vector2d::Zero(), noise_px});
     }
     // Where the adjustment begins.
     view.camera_from_station = perturbed(0.003 * test::normalVector6(random), pose);
@@ -45,9 +50,8 @@ std::vector<CalibrationView> viewsOf(const Camera& camera, int count, double noi
   return views;
 }
 
-/// Errors in units of the stated sigma, of 200 sets.
-TEST(CameraCalibration, TruthLiesWithinThreeSigma) {
-  Random random = test::randomFor("CameraCalibration.ThreeSigma");
+TEST(CameraCalibration, SigmasHoldTheErrors) {
+  Random random = test::randomFor("CameraCalibration.Sigmas");
   const Camera truth = trueCamera();
   Camera start = truth;
   start.fx = start.fy = truth.fx * 1.01;
@@ -55,23 +59,37 @@ TEST(CameraCalibration, TruthLiesWithinThreeSigma) {
   start.cy -= 3.0;
   const std::map<std::string, double> expected = {
       {"focal_relative", 1.0 / 1.01 - 1.0}, {"centre_x_px", -4.0}, {"centre_y_px", 3.0}};
-  std::map<std::string, int> outside;
-  std::map<std::string, double> squares;
-  constexpr int kTrials = 200;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const auto views = viewsOf(truth, 8, 0.3, random);
-    const CameraCalibration result = calibrateCamera(start, views, {});
+  std::map<std::string, std::vector<double>> errors;
+  for (int draw = 0; draw < 1000; ++draw) {
+    const CameraCalibration result = calibrateCamera(start, viewsOf(truth, 4, 0.3, random, 12), {});
     EXPECT_TRUE(result.undetermined.empty());
-    for (const CalibrationParameter& parameter : result.parameters) {
-      const double error = (parameter.value - expected.at(parameter.name)) / parameter.sigma;
-      outside[parameter.name] += std::abs(error) > 3.0;
-      squares[parameter.name] += error * error;
-    }
+    EXPECT_TRUE(result.outlying.empty());
+    for (const CalibrationParameter& parameter : result.parameters)
+      errors[parameter.name].push_back((parameter.value - expected.at(parameter.name)) /
+                                       parameter.sigma);
   }
-  for (const auto& [name, count] : outside) {
-    EXPECT_LE(count, kTrials / 100) << name;
-    // Neither too small nor too large: the mean square is 1, within four of its deviations.
-    EXPECT_NEAR(squares[name] / kTrials, 1.0, 4.0 * std::sqrt(2.0 / kTrials)) << name;
+  ASSERT_EQ(errors.size(), 3u);
+  for (const auto& [name, of_draws] : errors) {
+    SCOPED_TRACE(name);
+    test::expectGaussianCoverage(of_draws);
+  }
+}
+
+TEST(CameraCalibration, SwappedPair_IsNamedAndDoesNotLoseTheSigmas) {
+  Random random = test::randomFor("CameraCalibration.Swapped");
+  const Camera truth = trueCamera();
+  auto views = viewsOf(truth, 8, 0.3, random);
+  const CameraCalibration clean = calibrateCamera(truth, views, {});
+  std::swap(views[3].points[5].pixel, views[3].points[17].pixel);
+  const CameraCalibration result = calibrateCamera(truth, views, {});
+  ASSERT_EQ(result.outlying.size(), 1u);
+  EXPECT_THAT(outlyingText(result.outlying[0]),
+              testing::HasSubstr("c3: 2 of 30 observations are far out"));
+  EXPECT_TRUE(result.undetermined.empty());
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(result.parameters[i].sigma, 1.5 * clean.parameters[i].sigma);
+    EXPECT_LT(std::abs(result.parameters[i].value - clean.parameters[i].value),
+              2.0 * clean.parameters[i].sigma);
   }
 }
 
@@ -110,7 +128,17 @@ TEST(CameraCalibration, WhatTheImagesCannotDetermineIsNamed) {
   ASSERT_EQ(result.undetermined.size(), 1u);
   EXPECT_EQ(result.undetermined[0].text, "focal_relative");
   EXPECT_FALSE(std::isfinite(result.parameters[0].sigma));
-  EXPECT_FALSE(result.sigma());
+  EXPECT_FALSE(result.sigma({1e-3, 0.7}));
+}
+
+TEST(CameraCalibration, SigmaOfWhatIsNotAdjusted_StaysTheFormerOne) {
+  Random random = test::randomFor("CameraCalibration.Former");
+  const auto views = viewsOf(trueCamera(), 4, 0.3, random);
+  const CameraCalibration result = calibrateCamera(trueCamera(), views, {true, false, false});
+  const auto sigma = result.sigma({0.1, 0.7});
+  ASSERT_TRUE(sigma);
+  EXPECT_EQ(sigma->focal_relative, result.parameters[0].sigma);
+  EXPECT_EQ(sigma->principal_point_px, 0.7);
 }
 
 TEST(CameraCalibration, IsUsedForTheCasesOfTheCamera) {
@@ -141,6 +169,8 @@ TEST(CameraCalibration, TooLittleIsRefused) {
   auto views = viewsOf(camera, 1, 0.3, random);
   EXPECT_THROW((void)calibrateCamera(camera, views, {false, false, false}), std::invalid_argument);
   EXPECT_THROW((void)calibrateCamera(camera, {}, {}), std::invalid_argument);
+  EXPECT_THROW((void)calibrateCamera(camera, views, {true, true, true}), std::invalid_argument)
+      << "a pinhole has no distortion";
   views[0].points.resize(4);
   EXPECT_THROW((void)calibrateCamera(camera, views, {}), std::invalid_argument);
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/calibration/hand_eye.h"
 
-#include <cmath>
+#include <array>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "tests/support/coverage.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -47,26 +49,43 @@ std::vector<ArmPosture> posturesOf(const Truth& truth, int count, bool about_one
   return postures;
 }
 
-TEST(HandEye, TruthLiesWithinThreeSigma) {
-  Random random = randomFor("HandEye.ThreeSigma");
-  int outside = 0;
-  Vector6d squares = Vector6d::Zero();
-  constexpr int kTrials = 200;
-  for (int trial = 0; trial < kTrials; ++trial) {
+TEST(HandEye, SigmasHoldTheErrors) {
+  Random random = randomFor("HandEye.Sigmas");
+  std::array<std::vector<double>, 6> errors;
+  for (int draw = 0; draw < 1000; ++draw) {
     const Truth truth{randomPose(random), randomPose(random)};
-    const auto postures = posturesOf(truth, 12, false, random);
     const HandEye result = calibrateHandEye(
-        postures, perturbed(0.02 * test::normalVector6(random), truth.camera_from_end_effector));
+        posturesOf(truth, 10, false, random),
+        perturbed(0.02 * test::normalVector6(random), truth.camera_from_end_effector));
     EXPECT_TRUE(result.undetermined.empty());
     const Vector6d error =
         perturbationBetween(result.camera_from_end_effector, truth.camera_from_end_effector);
-    const Vector6d normalized = error.cwiseQuotient(result.covariance.diagonal().cwiseSqrt());
-    outside += normalized.cwiseAbs().maxCoeff() > 3.0;
-    squares += normalized.cwiseAbs2() / kTrials;
+    const Vector6d sigma = result.covariance.diagonal().cwiseSqrt();
+    for (int i = 0; i < 6; ++i) errors[static_cast<std::size_t>(i)].push_back(error[i] / sigma[i]);
   }
-  // One of six exceeds 3 sigma in 1.6 % of the trials: 3.2 of 200, and 8 in 1 of 70.
-  EXPECT_LE(outside, 8);
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares[i], 1.0, 4.0 * std::sqrt(2.0 / kTrials)) << i;
+  for (const std::vector<double>& component : errors) test::expectGaussianCoverage(component);
+}
+
+TEST(HandEye, EachStationHasItsOwnPlaceInTheBase) {
+  Random random = randomFor("HandEye.Stations");
+  const Truth first{randomPose(random), randomPose(random)};
+  const Truth second{first.camera_from_end_effector, randomPose(random)};
+  std::vector<ArmPosture> postures = posturesOf(first, 6, false, random);
+  for (ArmPosture posture : posturesOf(second, 6, false, random)) {
+    posture.station = 1;
+    postures.push_back(posture);
+  }
+  const HandEye result = calibrateHandEye(postures, first.camera_from_end_effector);
+  EXPECT_TRUE(result.undetermined.empty());
+  EXPECT_LT(result.noise_factor, 2.0);
+  ASSERT_EQ(result.base_from_station.size(), 2u);
+  EXPECT_LT(perturbationBetween(result.base_from_station[1], second.base_from_station).norm(), 0.1);
+  const Vector6d sigma = result.covariance.diagonal().cwiseSqrt();
+  const Vector6d error =
+      perturbationBetween(result.camera_from_end_effector, first.camera_from_end_effector);
+  EXPECT_LT(error.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 4.0);
+  postures[0].station = 5;
+  EXPECT_THROW((void)calibrateHandEye(postures, Pose()), std::invalid_argument);
 }
 
 /// Where nothing is known of the place, residuals begin at a hundred sigmas and more.

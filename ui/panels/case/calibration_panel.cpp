@@ -45,6 +45,8 @@ QString summaryText(const sessions::CameraCalibration& calibration,
           .arg(numberText(calibration.rms_px, 3), numberText(calibration.noise_factor, 2))};
   if (const std::string change = sessions::changeText(values); !change.empty())
     lines.prepend(fromText(change));
+  for (const sessions::OutlyingView& view : calibration.outlying)
+    lines << fromText(sessions::outlyingText(view));
   for (const sessions::Undetermined& direction : calibration.undetermined)
     lines << CalibrationPanel::tr(
                  "Not determined by these images: %1. Add images from other "
