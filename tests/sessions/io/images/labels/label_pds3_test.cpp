@@ -156,6 +156,19 @@ TEST_F(LabelPds3, OfSeveralImagesTheFirstIsReadAndNothingOfTheOthers) {
   EXPECT_EQ(readSamples(file).values[5], 5);
 }
 
+/// As on discs that such labels were written for. Of two files whose names differ in case alone, the
+/// label is that of one.
+TEST_F(LabelPds3, LabelWhoseNameDiffersInCase_BelongsToThePixelsThatItNames) {
+  const Raster raster = Raster::plain();
+  pds_.pixels_file = "b.dat";
+  folder_.write("B.DAT", pds_.pixels(raster));
+  folder_.write("b.Lbl", pds_.label(raster, 0));
+  EXPECT_TRUE(readImage(folder_ / "B.DAT").label);
+  folder_.write("b.dat", pds_.pixels(raster));
+  EXPECT_TRUE(readImage(folder_ / "b.dat").label);
+  EXPECT_EQ(folder_.message([&] { (void)readImage(folder_ / "B.DAT"); }).find("B.DAT: not a"), 0u);
+}
+
 TEST_F(LabelPds3, HashIsOfTheLabelAndThePixelsAsTheyAre) {
   const Raster raster = Raster::counting(8, 8);
   Pds3File pds;
