@@ -34,6 +34,10 @@ class InterruptWatch {
   std::jthread thread_;
 };
 
+/// After an interrupt of a command that continues its results.
+inline constexpr const char* kInterruptedNote =
+    "interrupted; run the same command again to continue";
+
 /// A line of stderr that is rewritten on a terminal; without effect elsewhere.
 class TerminalLine {
  public:

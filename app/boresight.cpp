@@ -14,7 +14,9 @@
 #include <QTemporaryDir>
 
 #include "app/add_option.h"
+#include "app/display.h"
 #include "app/exit_codes.h"
+#include "app/log_option.h"
 #include "app/plain_output.h"
 #include "app/written_pages.h"
 #include "sessions/version.h"
@@ -69,6 +71,7 @@ void Arguments::addTo(CLI::App& app) {
             "the window")
       ->check(CLI::IsMember({"start", "run", "diagnose", "annotate", "review", "onboard"},
                             CLI::ignore_case));
+  addLogLevel(app);
   addChoice(app, "--theme", theme, {"light", "dark"}, "Light or dark colours");
   app.add_option("--documents", documents, "Write pages of the manual")->group("");
 }
@@ -102,6 +105,14 @@ bool wantsNoDisplay(int count, char** values) {
   });
 }
 
+/// The platform that QApplication will take.
+std::string platformOf(int count, char** values) {
+  for (int i = 1; i + 1 < count; ++i)
+    if (const std::string_view value = values[i]; value == "-platform" || value == "--platform")
+      return values[i + 1];
+  return qEnvironmentVariable("QT_QPA_PLATFORM").toStdString();
+}
+
 /// The manual's page of every key, as the window has them.
 std::string keysPage() {
   const ui::MainWindow window;
@@ -114,8 +125,12 @@ std::string keysPage() {
 }
 
 int runProgram(int argc, char** argv) {
-  const PlainOutput plain_errors(std::cerr);
+  const PlainOutput plain_errors(std::cerr, PlainOutput::Lines::kMessages);
   ui::prepareApplication(wantsNoDisplay(argc, argv));
+  if (!displayAnswers(platformOf(argc, argv))) {
+    std::cerr << "boresight: there is no display: connect with ssh -X, or use whs\n";
+    return kBadInput;
+  }
   QApplication application(argc, argv);
   ui::nameApplication(application);
   CLI::App app(kDescription, "boresight");
@@ -138,6 +153,7 @@ int runProgram(int argc, char** argv) {
   ui::applyTheme(application, arguments.theme == "dark"    ? ui::ThemeName::kDark
                               : arguments.theme == "light" ? ui::ThemeName::kLight
                                                            : unstated);
+  if (!picture) beginLog("boresight");
   ui::MainWindow window;
   if (picture) {
     window.setQuiet(true);
@@ -161,7 +177,9 @@ int runProgram(int argc, char** argv) {
   window.show();
   if (arguments.screenshot.workspace) window.workspaces().show(*arguments.screenshot.workspace);
   if (!arguments.files.empty()) window.takeFiles({arguments.files.begin(), arguments.files.end()});
-  return QApplication::exec();
+  const int exit_code = QApplication::exec();
+  endLog("boresight", exit_code);
+  return exit_code;
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <stop_token>
 
 #include <nlohmann/json.hpp>
 
+#include "app/batch_output.h"
 #include "app/commands.h"
 #include "sessions/checks/checks.h"
 #include "sessions/decision/check.h"
@@ -67,8 +69,9 @@ sessions::Session judgedBy(const sessions::Session& session, const std::string& 
   return judged;
 }
 
+/// After a stop the convergence test is incomplete.
 CheckedCase checkCase(const sessions::Session& session, const std::string& id,
-                      const CheckArguments& arguments) {
+                      const CheckArguments& arguments, const std::stop_token& stop) {
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
   if (arguments.poseSource() == PoseSource::kRun) {
     const sessions::RunRecord& run = sessions::currentRunOf(session, id);
@@ -77,7 +80,7 @@ CheckedCase checkCase(const sessions::Session& session, const std::string& id,
   }
   const auto subject = sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)),
                                                arguments.poseSource());
-  const auto convergence = sessions::convergenceTest(subject, arguments.convergence);
+  const auto convergence = sessions::convergenceTest(subject, arguments.convergence, stop);
   return {id, sessions::checkPose(subject, limits, convergence), ""};
 }
 
@@ -105,9 +108,13 @@ int checkSession(const CheckArguments& arguments) {
   const sessions::Session session = judgedBy(document.session(), arguments.preset);
   int exit_code = kDone;
   std::vector<CheckedCase> checked;
+  std::stop_source stop;
+  const InterruptWatch watch(stop);
   for (const std::string& id : requestedCases(document, arguments.cases)) {
     try {
-      checked.push_back(checkCase(session, id, arguments));
+      const CheckedCase next = checkCase(session, id, arguments, stop.get_token());
+      if (watch.signal() != 0) break;
+      checked.push_back(next);
       const CheckedCase& checked_case = checked.back();
       print(id);
       std::cout << sessions::checksText(checked_case.checks, arguments.sentences) << std::endl;
@@ -120,7 +127,8 @@ int checkSession(const CheckArguments& arguments) {
     }
   }
   if (!arguments.json.empty()) writeJson(arguments, session.review.preset, checked);
-  return exit_code;
+  if (watch.signal() != 0) note("interrupted; the cases before were checked");
+  return watch.exitCode(exit_code);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "app/add_option.h"
 #include "app/exit_codes.h"
+#include "app/log_option.h"
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/baselines/methods.h"
@@ -43,7 +44,11 @@ void addCommand(CLI::App& app, int& exit_code, const std::string& name, const st
   auto arguments = std::make_shared<std::remove_const_t<Arguments>>();
   CLI::App* command = app.add_subcommand(name, help);
   arguments->addTo(*command);
-  command->callback([arguments, run, &exit_code] { exit_code = run(*arguments); });
+  addLogLevel(*command)->group("");
+  command->callback([command, arguments, run, &exit_code] {
+    if (!command->get_group().empty()) beginLog("whs");  // not of commands that build documents
+    exit_code = run(*arguments);
+  });
 }
 
 /// Print a readable line to stderr and to stdout. Text from outside cannot break the line.

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <stop_token>
+
+#include "app/batch_output.h"
 #include "app/commands.h"
 #include "sessions/checks/checks.h"
 #include "sessions/review/review_status.h"
@@ -60,7 +64,9 @@ sessions::CheckWaivers readWaivers(const DecideArguments& arguments) {
   return check_waivers;
 }
 
-Session validatedCase(const Session& session, const DecideArguments& arguments) {
+/// Empty after a stop.
+std::optional<Session> validatedCase(const Session& session, const DecideArguments& arguments,
+                                     const std::stop_token& stop) {
   const auto source = arguments.source == "annotation" ? PoseSource::kAnnotation : PoseSource::kRun;
   const auto subject = sessions::reviewSubject(
       session, sessions::loadCase(*session.findCase(arguments.case_id)), source);
@@ -70,13 +76,15 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
   const std::string concern = sessions::validationConcern(session, subject);
   if (!concern.empty()) throw sessions::DecisionError(concern);
   const sessions::ConvergenceResult convergence =
-      sessions::convergenceTest(subject, arguments.convergence);
+      sessions::convergenceTest(subject, arguments.convergence, stop);
+  if (stop.stop_requested()) return std::nullopt;
   return sessions::validated(session, subject, sessions::checkPose(subject, limits, convergence),
                              waivers, arguments.signature(), convergence.seeds);
 }
 
-Session decided(const Session& session, const DecideArguments& arguments) {
-  if (arguments.validate) return validatedCase(session, arguments);
+std::optional<Session> decided(const Session& session, const DecideArguments& arguments,
+                               const std::stop_token& stop) {
+  if (arguments.validate) return validatedCase(session, arguments, stop);
   if (arguments.approve)
     return sessions::approved(session, arguments.case_id, arguments.signature());
   if (arguments.reject)
@@ -89,8 +97,15 @@ int decide(const DecideArguments& arguments) {
     throw CLI::ValidationError("--waive", "needs --validate: no other decision waives a check");
   sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
   (void)requireCase(document, arguments.case_id);
+  std::stop_source stop;
+  const InterruptWatch watch(stop);
   try {
-    document.apply(decided(document.session(), arguments), "Decide on " + arguments.case_id);
+    const std::optional<Session> next = decided(document.session(), arguments, stop.get_token());
+    if (!next) {
+      note("interrupted; nothing is decided");
+      return watch.exitCode(kInternalFault);
+    }
+    document.apply(*next, "Decide on " + arguments.case_id);
   } catch (const sessions::DecisionError& error) {
     note(arguments.case_id + ": " + error.what());
     return kNotConverged;

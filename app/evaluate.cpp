@@ -14,6 +14,7 @@
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/results_file.h"
+#include "sessions/evaluation/run_inputs.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/text/plain_text.h"
@@ -141,14 +142,19 @@ sessions::MethodFacts factsOf(const EvaluateArguments& arguments, const std::str
 /// The runs of a plan that each method still has to do.
 using Work = std::vector<std::pair<std::string, std::vector<sessions::PlannedRun>>>;
 
-Work workLeft(const EvaluateArguments& arguments, const std::vector<sessions::PlannedRun>& plan,
+/// InputError when an input of a run that is done has changed since.
+Work workLeft(const EvaluateArguments& arguments, const sessions::Dataset& dataset,
+              const std::vector<sessions::PlannedRun>& plan,
               const sessions::ResultsWriter& writer) {
+  sessions::RunInputs inputs(dataset, arguments.batch.mesh_of);
   Work work;
   std::size_t left = 0;
   for (const std::string& method : arguments.method.methods) {
     work.emplace_back(method, plan);
     std::erase_if(work.back().second, [&](const sessions::PlannedRun& run) {
-      return writer.has(method, run.input->id, run.reseed);
+      const auto held = writer.inputsOf(method, run.input->id, run.reseed);
+      if (held) inputs.requireUnchanged(*run.input, *held, arguments.out);
+      return held.has_value();
     });
     left += work.back().second.size();
   }
@@ -241,21 +247,21 @@ int evaluate(EvaluateArguments& arguments) {
   if (arguments.batch.jobs == 0) arguments.batch.jobs = jobsFor(plan.size());
 
   std::stop_source stop;
+  const InterruptWatch watch(stop);  // to the end: all that is done is written, listed and counted
   {
-    const InterruptWatch watch(stop);
     sessions::ResultsWriter writer(arguments.out, sessions::datasetFacts(dataset));
     for (const std::string& method : arguments.method.methods)
       writer.admit(factsOf(arguments, method));
-    runAll(arguments, dataset, workLeft(arguments, plan, writer), writer, stop.get_token());
+    runAll(arguments, dataset, workLeft(arguments, dataset, plan, writer), writer,
+           stop.get_token());
   }
   const std::vector<sessions::RunResult> results = sessions::readResults(arguments.out).runs;
   if (!arguments.jsonl.empty()) writeResultLines(arguments.jsonl, results);
   if (!arguments.bop_csv.empty()) writeBopCsv(arguments, dataset, results);
   printSummary(results);
-  const bool whole = !stop.stop_requested();
-  if (!whole) note("interrupted; run the same command again to continue");
-  if (std::ranges::any_of(results, &sessions::RunResult::inputFailed)) return kBadInput;
-  return whole ? kDone : kInternalFault;
+  if (watch.signal() != 0) note(kInterruptedNote);
+  return watch.exitCode(std::ranges::any_of(results, &sessions::RunResult::inputFailed) ? kBadInput
+                                                                                        : kDone);
 }
 
 }  // namespace

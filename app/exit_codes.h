@@ -11,13 +11,13 @@ enum ExitCode : int {
   kBadInput = 3,  ///< or an output that cannot be written
   kNotConverged = 4,
   kWithinLimits = 5,  ///< compare: different, within the limits
-  kDifferent = 6,     ///< compare, verify, tables --against
+  kDifferent = 6,     ///< compare, verify, tables --against, run --again
 };
 
 /// Exit codes of whs, for its help.
 inline constexpr const char* kExitStatusText =
     "0 done (localize: converged), 2 usage, 3 bad input or an output that cannot be written, 4 did "
-    "not converge, 5 different within the limits (compare), 6 different (compare, verify, tables), "
-    "1 internal fault, 128 + signal: interrupted (run).";
+    "not converge, 5 different within the limits (compare), 6 different (compare, verify, tables, "
+    "run --again), 1 internal fault, 128 + signal: interrupted.";
 
 }  // namespace boresight::app

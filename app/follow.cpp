@@ -71,6 +71,7 @@ sessions::SequenceOrder orderOf(const FollowArguments& arguments,
   sessions::SequenceOrder order;
   order.images = arguments.images;
   order.session_case = session_case;
+  order.session_case.image.eight_bit = arguments.files().eight_bit;
   order.motion = motionOf(arguments);
   order.profile = arguments.options.profileName();
   order.options = arguments.optionsOf(session_case);
@@ -126,8 +127,8 @@ int follow(FollowArguments& arguments) {
   std::stop_source stop;
   std::int64_t frames = 0;
   std::int64_t lost = 0;
+  const InterruptWatch watch(stop);
   {
-    const InterruptWatch watch(stop);
     sessions::CaseSequence sequence(order, std::move(inputs), std::move(source));
     followAll(sequence, arguments.out, stop.get_token());
     frames = sequence.sequence().frames();
@@ -135,11 +136,8 @@ int follow(FollowArguments& arguments) {
   }
   if (!arguments.jsonl.empty())
     writeResultLines(arguments.jsonl, sessions::readResults(arguments.out).runs);
-  if (stop.stop_requested()) {
-    note("interrupted; run the same command again to continue");
-    return kInternalFault;
-  }
-  return lost < frames ? kDone : kNotConverged;
+  if (watch.signal() != 0) note(kInterruptedNote);
+  return watch.exitCode(lost < frames ? kDone : kNotConverged);
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <stop_token>
 
+#include "app/batch_output.h"
 #include "app/commands.h"
 #include "sessions/evaluation/results_file.h"
 
@@ -19,10 +22,16 @@ struct MergeArguments {
 };
 
 int merge(const MergeArguments& arguments) {
-  const sessions::MergeCounts counts =
-      sessions::mergeResults(arguments.out, {arguments.inputs.begin(), arguments.inputs.end()});
-  print(arguments.out + ": " + std::to_string(counts.runs) + " runs" +
-        (counts.equal > 0 ? "; " + std::to_string(counts.equal) + " were duplicates" : ""));
+  std::stop_source stop;
+  const InterruptWatch watch(stop);
+  const std::optional<sessions::MergeCounts> counts = sessions::mergeResults(
+      arguments.out, {arguments.inputs.begin(), arguments.inputs.end()}, stop.get_token());
+  if (!counts) {
+    note("interrupted; " + arguments.out + " is as it was");
+    return watch.exitCode(kInternalFault);
+  }
+  print(arguments.out + ": " + std::to_string(counts->runs) + " runs" +
+        (counts->equal > 0 ? "; " + std::to_string(counts->equal) + " were duplicates" : ""));
   return kDone;
 }
 

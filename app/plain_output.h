@@ -8,10 +8,13 @@
 namespace boresight::app {
 
 /// While this object exists, a stream prints plain text: control characters become blanks
-/// (sessions/text/plain_text.h). Line feeds stay: the text within a line must not contain any.
+/// (sessions/text/plain_text.h). Line feeds stay: the text within a line must not contain any. The
+/// lines of messages are in the program's log, too.
 class PlainOutput : private std::streambuf {
  public:
-  explicit PlainOutput(std::ostream& stream);
+  enum class Lines { kResults, kMessages };
+
+  explicit PlainOutput(std::ostream& stream, Lines lines = Lines::kResults);
   PlainOutput(const PlainOutput&) = delete;
   PlainOutput& operator=(const PlainOutput&) = delete;
   ~PlainOutput() override;
@@ -24,6 +27,7 @@ class PlainOutput : private std::streambuf {
   std::ostream& stream_;
   std::streambuf* target_;
   std::string line_;
+  Lines lines_;
 };
 
 }  // namespace boresight::app

@@ -101,7 +101,7 @@ int runAgain(const sessions::SessionDocument& document, const std::string& begin
   const bool same = trace.digest == run.digest;
   print(run.case_id + ": " + run.status + ", digest " + trace.digest +
         (same ? ", the same" : ", NOT the same as recorded"));
-  return same ? kDone : kNotConverged;
+  return same ? kDone : kDifferent;
 }
 
 /// An edit of the cases, as if made in the window.

@@ -2,9 +2,13 @@
 #include <algorithm>
 #include <iostream>
 #include <set>
+#include <sstream>
+#include <stop_token>
 
+#include "app/batch_output.h"
 #include "app/commands.h"
 #include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/tables/error_strips.h"
 #include "sessions/tables/flight_table.h"
 #include "sessions/tables/method_tables.h"
@@ -114,6 +118,17 @@ std::string provenanceText(const sessions::ResultsSet& set) {
   return text;
 }
 
+/// Below tables; in LaTeX as comments. CSV has no place for it.
+std::string provenanceOf(const sessions::ResultsSet& set, TableFormat format) {
+  if (format == TableFormat::kCsv) return "";
+  const std::string text = provenanceText(set);
+  if (format == TableFormat::kText) return "\n" + text;
+  std::istringstream lines(text);
+  std::string comments;
+  for (std::string line; std::getline(lines, line);) comments += "% " + line + "\n";
+  return comments;
+}
+
 std::vector<std::filesystem::path> paths(const std::vector<std::string>& files) {
   return {files.begin(), files.end()};
 }
@@ -143,8 +158,7 @@ std::string tablesText(const TablesArguments& arguments, const sessions::Results
   std::string text;
   for (const Table& table : tablesOf(arguments, set))
     text += (text.empty() ? "" : "\n") + sessions::tableText(table, tableFormat(arguments));
-  if (tableFormat(arguments) == TableFormat::kText) text += "\n" + provenanceText(set);
-  return text;
+  return text + provenanceOf(set, tableFormat(arguments));
 }
 
 void writeFigures(const std::filesystem::path& folder, CanvasFormat format,
@@ -163,7 +177,7 @@ void drawFigures(const TablesArguments& arguments, const sessions::ResultsSet& s
   }
 }
 
-void drawFailures(const TablesArguments& arguments) {
+void drawFailures(const TablesArguments& arguments, const std::stop_token& stop) {
   const std::vector<sessions::Failure> failures =
       sessions::failuresOf(paths(arguments.results), arguments.filter);
   if (failures.empty()) {
@@ -172,7 +186,7 @@ void drawFailures(const TablesArguments& arguments) {
   }
   for (const std::string& name : arguments.figure_formats)
     writeFigures(arguments.failures, canvasFormat(name),
-                 sessions::failureSheets(failures, canvasFormat(name)));
+                 sessions::failureSheets(failures, canvasFormat(name), stop));
 }
 
 int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& before) {
@@ -190,19 +204,31 @@ int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& be
   return difference.holds() ? kDone : kDifferent;
 }
 
+/// OutputError unless the folder exists or can be created; an empty name is no folder.
+void requireFolder(const std::string& folder) {
+  std::error_code error;
+  if (folder.empty() || std::filesystem::is_directory(folder, error)) return;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw sessions::OutputError(folder, "it is no folder and cannot become one");
+}
+
 int makeTables(const TablesArguments& arguments) {
   const sessions::ResultsSet set =
       sessions::readResultsSet(paths(arguments.results), arguments.filter);
   requireWritable({arguments.out});
+  for (const std::string& folder : {arguments.figures, arguments.failures}) requireFolder(folder);
   if (!arguments.against.empty()) return compareSets(arguments, set);
   if (set.runs.empty()) {
     note("no run meets all filters");
     return kBadInput;
   }
+  std::stop_source stop;
+  const InterruptWatch watch(stop);
   write(arguments, tablesText(arguments, set));
-  if (!arguments.figures.empty()) drawFigures(arguments, set);
-  if (!arguments.failures.empty()) drawFailures(arguments);
-  return kDone;
+  if (!arguments.figures.empty() && watch.signal() == 0) drawFigures(arguments, set);
+  if (!arguments.failures.empty() && watch.signal() == 0) drawFailures(arguments, stop.get_token());
+  if (watch.signal() != 0) note("interrupted; what was drawn is kept");
+  return watch.exitCode(kDone);
 }
 
 }  // namespace
@@ -212,8 +238,7 @@ void addTables(CLI::App& app, int& exit_code) {
       app, exit_code, "tables",
       "Writes tables and figures of results: errors, success, time per step, distributions. With "
       "--against it compares two sets of results run by run; exit status 6: a run became worse or "
-      "is "
-      "missing, or there is none in both",
+      "is missing, or there is none in both",
       makeTables);
 }
 

@@ -87,6 +87,7 @@ int run(int argc, char** argv) {
   CLI::App app("Localizes a camera relative to a known object by render and compare.", "whs");
   app.set_version_flag("--version", std::string("whs ") + sessions::kVersion);
   app.set_help_all_flag("--help-all", "Help of every subcommand");
+  addLogLevel(app);
   app.require_subcommand(1);
   app.footer(std::string("Exit status: ") + kExitStatusText);
   app.failure_message([](const CLI::App* parsed, const CLI::Error& error) {
@@ -145,8 +146,9 @@ int runGuarded(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace boresight::app;
   const PlainOutput plain_output(std::cout);
-  const PlainOutput plain_errors(std::cerr);
+  const PlainOutput plain_errors(std::cerr, PlainOutput::Lines::kMessages);
   const int exit_code = runGuarded(argc, argv);
+  endLog("whs", exit_code);
   constexpr int kBySignal = 128;  // exit codes above: also of a reader that closed the pipe
   if (std::cout.flush() || exit_code > kBySignal) return exit_code;
   note("cannot write standard output: the output is incomplete; is the device full?");

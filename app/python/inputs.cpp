@@ -15,9 +15,9 @@ namespace {
 
 using Path = std::filesystem::path;
 
-Case readCase(const Path& image, const Path& mesh, const std::string& mesh_unit,
-                 const Path& seed, const Path& camera, const std::vector<Path>& frames,
-                 const std::optional<Path>& truth, const std::optional<Path>& ignore) {
+Case readCase(const Path& image, const Path& mesh, const std::string& mesh_unit, const Path& seed,
+              const Path& camera, const std::vector<Path>& frames, const std::optional<Path>& truth,
+              const std::optional<Path>& ignore) {
   sessions::CaseFiles files;
   files.image = image;
   files.camera = camera;
@@ -64,8 +64,7 @@ py::array_t<std::int32_t> facesOf(const Case& one) {
 
 py::dict renderEdges(const Case& one, const std::optional<Eigen::Matrix4d>& pose) {
   const sessions::LoadedCase& loaded = *one.loaded;
-  const Pose camera_from_station =
-      pose ? poseOf(*pose) : loaded.source.camera_from_station_seed;
+  const Pose camera_from_station = pose ? poseOf(*pose) : loaded.source.camera_from_station_seed;
   sessions::RenderTrace render;
   const Status status = [&] {
     const py::gil_scoped_release release;
@@ -82,7 +81,7 @@ sessions::Session readSession(const Path& file) { return sessions::readSessionFi
 Case caseOf(const sessions::Session& session, const std::string& id) {
   const sessions::SessionCase* found = session.findCase(id);
   if (found == nullptr) throw py::key_error("no case " + id);
-  return {sessions::loadCase(*found)};
+  return {sessions::loadCase(*found), sessions::sessionOptions(session, "session")};
 }
 
 std::vector<std::string> caseIds(const sessions::Session& session) {
@@ -123,7 +122,11 @@ void addInputs(py::module_& module) {
       "new_session",
       [](const Path& file, const std::vector<Case>& cases) {
         sessions::Session session;
-        for (const Case& one : cases) session = withCase(session, one.loaded->source);
+        for (const Case& one : cases) {
+          sessions::SessionCase added = one.loaded->source;
+          added.id = sessions::freeCaseId(session, added.id);  // two images may have one name
+          session = withCase(session, added);
+        }
         (void)sessions::SessionDocument::create(file, session);
         return session;
       },

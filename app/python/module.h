@@ -24,6 +24,7 @@ namespace py = pybind11;
 /// A case whose files were read.
 struct Case {
   std::shared_ptr<const sessions::LoadedCase> loaded;
+  std::optional<LocalizerOptions> options = {};  ///< of the session that it is from
 };
 
 /// A finished run together with its case.

@@ -51,8 +51,8 @@ py::dict matchesOf(const IterationTrace& iteration) {
   dict["x"] = column<double>(items, [](const Match& item) { return item.x; });
   dict["y"] = column<double>(items, [](const Match& item) { return item.y; });
   dict["template"] = column<std::int32_t>(iteration.template_of, [](auto index) { return index; });
-  dict["pixel"] = vectors(iteration.correspondences, 2,
-                          [](const Correspondence& item) { return item.pixel; });
+  dict["pixel"] =
+      vectors(iteration.correspondences, 2, [](const Correspondence& item) { return item.pixel; });
   dict["inlier"] = column<bool>(iteration.pnp.inlier, [](auto inlier) { return inlier != 0; });
   dict["residual_px"] = column<double>(iteration.pnp.residual_px, [](double r) { return r; });
   return dict;
@@ -75,27 +75,40 @@ py::dict iterationOf(const IterationTrace& iteration) {
   return dict;
 }
 
-LocalizerOptions optionsOf(const std::string& profile, const py::dict& changes,
-                           const sessions::SessionCase& session_case) {
-  const auto known = sessions::profileOptions(profile);
-  if (!known) throw py::value_error("there is no profile " + profile);
-  LocalizerOptions options = *known;
+/// Those of the profile, or of the case's session where none is named; of the default profile
+/// without a session.
+LocalizerOptions optionsBefore(const Case& one, const std::optional<std::string>& profile) {
+  if (!profile && one.options) return *one.options;
+  const std::string name = profile.value_or("default");
+  const auto known = sessions::profileOptions(name);
+  if (!known) throw py::value_error("there is no profile " + name);
+  return *known;
+}
+
+LocalizerOptions optionsOf(const Case& one, const std::optional<std::string>& profile,
+                           const py::dict& changes) {
+  LocalizerOptions options = optionsBefore(one, profile);
   sessions::Config config;
   config.file = "options";
   for (const auto& [name, value] : changes) {
     sessions::OptionValue option;
-    if (py::isinstance<py::bool_>(value)) option = value.cast<bool>();
-    else if (py::isinstance<py::int_>(value)) option = value.cast<std::int64_t>();
-    else if (py::isinstance<py::float_>(value)) option = value.cast<double>();
-    else option = value.cast<std::string>();
+    if (py::isinstance<py::bool_>(value))
+      option = value.cast<bool>();
+    else if (py::isinstance<py::int_>(value))
+      option = value.cast<std::int64_t>();
+    else if (py::isinstance<py::float_>(value))
+      option = value.cast<double>();
+    else
+      option = value.cast<std::string>();
     config.options.emplace_back(name.cast<std::string>(), option);
   }
   sessions::applyConfig(options, config);
-  return sessions::withFeatureSize(options, session_case.feature_size_m);
+  return sessions::withFeatureSize(options, one.loaded->source.feature_size_m);
 }
 
-Run localizeCase(const Case& one, const std::string& profile, const py::dict& changes) {
-  const LocalizerOptions options = optionsOf(profile, changes, one.loaded->source);
+Run localizeCase(const Case& one, const std::optional<std::string>& profile,
+                 const py::dict& changes) {
+  const LocalizerOptions options = optionsOf(one, profile, changes);
   const py::gil_scoped_release release;
   return {one.loaded, sessions::runCase(*one.loaded, sessions::RunPlan(options))};
 }
@@ -149,10 +162,12 @@ void addRun(py::module_& module) {
       .def_property_readonly(
           "seconds", [](const Run& run) { return pythonOf(sessions::toJson(run.trace.seconds)); })
       .def_property_readonly("iterations", &iterationsOf, "A list of dicts of arrays.")
-      .def("edges", &edgesOf, py::arg("level") = 0, "Canny edges of a level: (height, width) bool.");
-  module.def("localize", &localizeCase, py::arg("case"), py::arg("profile") = "default",
+      .def("edges", &edgesOf, py::arg("level") = 0,
+           "Canny edges of a level: (height, width) bool.");
+  module.def("localize", &localizeCase, py::arg("case"), py::arg("profile") = std::nullopt,
              py::arg("options") = py::dict(),
-             "Runs the localization; `options` by name, e.g. {\"loop.max_iterations\": 5}.");
+             "Runs the localization with the options of the case's session, or of a profile; "
+             "`options` by name, e.g. {\"loop.max_iterations\": 5}, change them.");
 }
 
 }  // namespace boresight::python

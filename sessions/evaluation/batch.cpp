@@ -15,8 +15,10 @@
 
 #include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
+#include "sessions/evaluation/run_inputs.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/config_file.h"
+#include "sessions/log/program_log.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
@@ -108,20 +110,13 @@ std::optional<PoseError> errorOf(const Case& dataset_case, const Camera& camera,
                     {scene.matched_vertices, &scene.station->symmetries});
 }
 
-/// The share of the requirement that the error takes up. Without the costly errors of BOP, unless
-/// the station has symmetries.
-std::optional<double> shareOf(const Case& dataset_case, const Camera& camera, const Pose& estimate,
-                              const StationScene& scene) {
-  if (!dataset_case.truth_camera_from_station || !dataset_case.requirement) return std::nullopt;
-  const Pose& truth = *dataset_case.truth_camera_from_station;
-  PoseError error;
-  if (scene.station->symmetries.empty()) {
-    error = poseError(truth, estimate, dataset_case.camera_from_end_effector);
-    error.projection_px = projectionError(camera, truth, estimate, scene.matched_vertices);
-  } else {
-    error = *errorOf(dataset_case, camera, estimate, scene);
-  }
-  return requirementShare(error, *dataset_case.requirement);
+/// The errors of poses on the way, without the costly ones of BOP.
+std::optional<PoseError> judgedErrorOf(const Case& dataset_case, const Camera& camera,
+                                       const Pose& estimate, const StationScene& scene) {
+  if (!dataset_case.truth_camera_from_station) return std::nullopt;
+  return errorToTruth(camera, *dataset_case.truth_camera_from_station, estimate,
+                      dataset_case.camera_from_end_effector,
+                      {scene.matched_vertices, &scene.station->symmetries});
 }
 
 class Batch {
@@ -147,6 +142,7 @@ class Batch {
   std::vector<std::unique_ptr<CaseWork>> cases_;
   std::vector<Item> items_;
   Methods methods_;
+  RunInputs inputs_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;  ///< over what follows
   std::size_t done_ = 0;
@@ -155,7 +151,11 @@ class Batch {
 
 Batch::Batch(const Dataset& dataset, const BatchOptions& options,
              const std::vector<PlannedRun>& plan, const BatchProgress& progress)
-    : dataset_(dataset), options_(options), progress_(progress), methods_(options.method_setup) {
+    : dataset_(dataset),
+      options_(options),
+      progress_(progress),
+      methods_(options.method_setup),
+      inputs_(dataset, options.mesh_of) {
   std::vector<std::pair<SceneInputs, Shared<StationScene>>> scenes;
   for (const PlannedRun& planned : plan) {
     if (items_.empty() || items_.back().run.input != planned.input) {
@@ -251,6 +251,11 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   const Shared<CaseImage> shared_image = item.work->image;
   const StationScene& scene = shared_scene.get();
   const CaseImage& image = shared_image.get();
+  result.inputs_sha256 = inputs_.sha256(dataset_case);
+  logEvent(LogLevel::kInfo, [&] {
+    return "case " + dataset_case.id + ", seed " + std::to_string(item.run.reseed) + ", method " +
+           options_.method + ": inputs SHA-256 " + result.inputs_sha256;
+  });
 
   Pose seed = dataset_case.seed_camera_from_station;
   if (item.run.reseed > 0) {
@@ -283,10 +288,15 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     const LocalizationTrace trace =
         methods_.localize(options_.method, problem, options, settings, stop);
     noteTrace(trace, result);
-    result.compared = comparedText(trace, [&](const Pose& pose) {
-      return shareOf(dataset_case, problem.camera, pose, scene);
+    const auto error_of = [&](const Pose& pose) {
+      return judgedErrorOf(dataset_case, problem.camera, pose, scene);
+    };
+    result.compared = comparedText(trace, [&](const Pose& pose) -> std::optional<double> {
+      const std::optional<PoseError> error = error_of(pose);
+      if (!error || !dataset_case.requirement) return std::nullopt;
+      return requirementShare(*error, *dataset_case.requirement);
     });
-    result.steps = runSteps(trace, dataset_case);
+    result.steps = runSteps(trace, error_of);
   } else {
     result.status = "bad_seed";
   }

@@ -80,12 +80,16 @@ void searchTurns(const Cost& cost_of, const Pose& camera_from_station, const Axi
   refine(cost_of, at, best * step_rad, step_rad, least);
 }
 
+bool hasSymmetries(const Symmetries* symmetries) {
+  return symmetries != nullptr && !symmetries->empty();
+}
+
 /// The least cost over everything that looks like the truth. BOP turns about an axis after each
 /// discrete symmetry: p -> turn * (discrete * p).
 Least leastOver(const Cost& cost_of, const Pose& truth, const Symmetries* symmetries) {
   Least least;
   least.take(cost_of, truth);
-  if (symmetries == nullptr || symmetries->empty()) return least;
+  if (!hasSymmetries(symmetries)) return least;
   std::vector<Pose> discrete = symmetries->discrete;
   discrete.insert(discrete.begin(), Pose());
   for (const Pose& pose : discrete) {
@@ -190,14 +194,29 @@ double meanNearestDistance_m(const Pose& camera_from_station_true,
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
+PoseError errorToTruth(const Camera& camera, const Pose& camera_from_station_true,
+                       const Pose& camera_from_station_estimated,
+                       const std::optional<Pose>& camera_from_end_effector,
+                       const ModelView& model) {
+  const Pose truth =
+      hasSymmetries(model.symmetries)
+          ? leastSurfaceDistance(camera_from_station_true, camera_from_station_estimated, model)
+                .camera_from_station
+          : camera_from_station_true;
+  PoseError error = poseError(truth, camera_from_station_estimated, camera_from_end_effector);
+  error.projection_px =
+      projectionError(camera, truth, camera_from_station_estimated, model.vertices_in_station_m);
+  return error;
+}
+
 PoseError wholeError(const Camera& camera, const Pose& camera_from_station_true,
                      const Pose& camera_from_station_estimated,
                      const std::optional<Pose>& camera_from_end_effector, const ModelView& model) {
   const Pose& estimate = camera_from_station_estimated;
   const Least least = leastSurfaceDistance(camera_from_station_true, estimate, model);
   const Pose& truth = least.camera_from_station;
-  PoseError error = poseError(truth, estimate, camera_from_end_effector);
-  error.projection_px = projectionError(camera, truth, estimate, model.vertices_in_station_m);
+  PoseError error = errorToTruth(camera, truth, estimate, camera_from_end_effector,
+                                 {model.vertices_in_station_m});
   error.mssd_mm = kMillimetres * least.cost;
   error.mspd_px = projectionDistance_px(camera, truth, estimate, model);
   error.add_mm = kMillimetres * meanDistance_m(truth, estimate, model);

@@ -44,8 +44,13 @@ double meanDistance_m(const Pose& camera_from_station_true,
 double meanNearestDistance_m(const Pose& camera_from_station_true,
                              const Pose& camera_from_station_estimated, const ModelView& model);
 
-/// All reported errors of an estimate: poseError and projectionError against the true pose's
-/// symmetric equivalent with the smallest surface distance, and the four above.
+/// The judged errors of an estimate: poseError and projectionError against the true pose's
+/// symmetric equivalent with the smallest surface distance.
+PoseError errorToTruth(const Camera& camera, const Pose& camera_from_station_true,
+                       const Pose& camera_from_station_estimated,
+                       const std::optional<Pose>& camera_from_end_effector, const ModelView& model);
+
+/// All reported errors of an estimate: errorToTruth and the four above.
 PoseError wholeError(const Camera& camera, const Pose& camera_from_station_true,
                      const Pose& camera_from_station_estimated,
                      const std::optional<Pose>& camera_from_end_effector, const ModelView& model);

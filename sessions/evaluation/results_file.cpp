@@ -9,26 +9,31 @@
 
 #include "sessions/evaluation/run_rows.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/log/program_log.h"
 #include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
 namespace {
 
-std::string schema() {
+std::int64_t versionOf(SqlDatabase& database) {
+  return integerOf(database.value("PRAGMA user_version"));
+}
+
+std::string schema(std::int64_t version) {
   return "CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL);"
          "CREATE TABLE method (" +
          methodTable().sql() + ");CREATE TABLE batch_run (id INTEGER PRIMARY KEY, " +
          batchRunTable().sql() +
          ");CREATE TABLE run (id INTEGER PRIMARY KEY, batch_run INTEGER NOT NULL REFERENCES "
          "batch_run(id), " +
-         runTable().sql() +
+         runTableOf(version).sql() +
          ", UNIQUE (case_id, reseed, method));"
          "CREATE INDEX run_order ON run (dataset_index, reseed, method);"
          "CREATE TABLE tag (run INTEGER NOT NULL REFERENCES run(id), tag TEXT NOT NULL, "
          "PRIMARY KEY (run, tag)) WITHOUT ROWID;"
          "CREATE INDEX tag_name ON tag (tag);"
          "CREATE TABLE iteration (run INTEGER NOT NULL REFERENCES run(id), " +
-         stepTable().sql() +
+         stepTableOf(version).sql() +
          ", PRIMARY KEY (run, step)) WITHOUT ROWID;"
          "CREATE TABLE match (run INTEGER NOT NULL REFERENCES run(id), step INTEGER NOT NULL, " +
          matchTable().sql() + ", PRIMARY KEY (run, step, template)) WITHOUT ROWID;";
@@ -46,7 +51,7 @@ std::vector<std::vector<SqlValue>> objectsOf(SqlDatabase& database) {
 /// Throws what the access calls for when `database` holds other objects than a results file.
 void requireOwnObjects(SqlDatabase& database) {
   SqlDatabase model(":memory:", SqlAccess::kWrite);
-  model.execute(schema());
+  model.execute(schema(versionOf(database)));
   const auto wanted = objectsOf(model);
   const auto found = objectsOf(database);
   // The first of `objects` that is not among `others`, as `table "run"`.
@@ -95,7 +100,7 @@ void insertRow(SqlDatabase& database, const std::string& name, const RowTable<Ro
   database.run(insertSql(name, table.names()), table.values(row));
 }
 
-/// Throws what the database's access calls for, unless it is a results file of this version with
+/// Throws what the database's access calls for, unless it is a results file of a known version with
 /// the tables and indexes of one and nothing else.
 void requireResultsFile(SqlDatabase& database) {
   if (integerOf(database.value("PRAGMA application_id")) != kResultsApplication) {
@@ -103,10 +108,11 @@ void requireResultsFile(SqlDatabase& database) {
       database.fail("it has the format of an older version; evaluate again into a new file");
     database.fail("it is not a results file of whs evaluate");
   }
-  const std::int64_t version = integerOf(database.value("PRAGMA user_version"));
-  if (version != kResultsVersion)
+  const std::int64_t version = versionOf(database);
+  if (version < kOldestResultsVersion || version > kResultsVersion)
     database.fail("it is a results file of version " + std::to_string(version) +
-                  ", this program reads version " + std::to_string(kResultsVersion));
+                  ", this program reads the versions " + std::to_string(kOldestResultsVersion) +
+                  " to " + std::to_string(kResultsVersion));
   requireOwnObjects(database);
 }
 
@@ -121,6 +127,7 @@ ResultsFacts factsOf(SqlDatabase& database) {
   requireResultsFile(database);
   ResultsFacts facts;
   facts.file = database.file();
+  facts.format_version = versionOf(database);
   const auto fact = [&database](const char* name) {
     return textOf(database.value("SELECT value FROM fact WHERE name = ?1", {name}));
   };
@@ -146,12 +153,13 @@ std::set<std::string> negativeTests(SqlDatabase& database) {
 void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& take) {
   auto tags = readTags(database);
   const std::set<std::string> negative = negativeTests(database);
-  const std::vector<std::string> names = runTable().names();
+  const RowTable<RunResult>& table = runTableOf(versionOf(database));
+  const std::vector<std::string> names = table.names();
   SqlStatement statement(
       database,
       "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
   while (statement.step()) {
-    RunResult run = runTable().read(statement, database.file());
+    RunResult run = table.read(statement, database.file());
     run.wrong_mesh = negative.contains(run.method);
     run.tags = std::move(tags[integerOf(statement.cell(static_cast<int>(names.size())))]);
     take(std::move(run));
@@ -174,7 +182,7 @@ void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset) {
   SqlTransaction transaction(database);
   database.execute("PRAGMA application_id = " + std::to_string(kResultsApplication));
   database.execute("PRAGMA user_version = " + std::to_string(kResultsVersion));
-  database.execute(schema());
+  database.execute(schema(kResultsVersion));
   const std::vector<std::pair<std::string, std::string>> facts = {
       {"dataset", dataset.dataset},
       {"dataset_sha256", dataset.dataset_sha256},
@@ -201,14 +209,15 @@ void forEachRun(const std::filesystem::path& file, const std::function<void(RunR
 
 void readSteps(const std::filesystem::path& file, std::span<RunResult* const> runs) {
   SqlDatabase database = openedToRead(file);
+  const RowTable<RunStep>& table = stepTableOf(versionOf(database));
   SqlStatement statement(database,
-                         "SELECT " + joined(stepTable().names()) +
+                         "SELECT " + joined(table.names()) +
                              " FROM iteration WHERE run = (SELECT id FROM run WHERE "
                              "case_id = ?1 AND reseed = ?2 AND method = ?3) ORDER BY step");
   for (RunResult* run : runs) {
     statement.bind({run->case_id, std::int64_t{run->reseed}, run->method});
     run->steps.clear();
-    while (statement.step()) run->steps.push_back(stepTable().read(statement, file));
+    while (statement.step()) run->steps.push_back(table.read(statement, file));
   }
 }
 
@@ -228,6 +237,13 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& file, const DatasetFac
     const ResultsFacts held = factsOf(database_);
     if (const auto wrong = contradiction(held.dataset, dataset))
       throw OutputError(file, *wrong + "; name another file");
+    if (held.format_version != kResultsVersion)
+      throw OutputError(file, "it is a results file of version " +
+                                  std::to_string(held.format_version) +
+                                  ", which is read but not continued; name another file");
+    if (held.dataset.cases != dataset.cases)  // a sequence has grown
+      database_.run("UPDATE fact SET value = ?1 WHERE name = 'cases'",
+                    {std::to_string(dataset.cases)});
   }
 }
 
@@ -248,21 +264,30 @@ void ResultsWriter::begin(BatchRun batch_run) {
   began_ns_ = steadyNow_ns();
 }
 
-bool ResultsWriter::has(const std::string& method, const std::string& case_id,
-                        std::int32_t reseed) const {
-  return integerOf(database_.value("SELECT count(*) FROM run WHERE case_id = ?1 AND reseed = ?2 "
-                                   "AND method = ?3 AND status <> 'input_error'",
-                                   {case_id, std::int64_t{reseed}, method})) > 0;
+std::optional<std::string> ResultsWriter::inputsOf(const std::string& method,
+                                                   const std::string& case_id,
+                                                   std::int32_t reseed) const {
+  SqlStatement statement(database_,
+                         "SELECT inputs_sha256 FROM run WHERE case_id = ?1 AND reseed = ?2 AND "
+                         "method = ?3 AND status <> 'input_error'");
+  statement.bind({case_id, std::int64_t{reseed}, method});
+  return statement.step() ? std::optional(textOf(statement.cell(0))) : std::nullopt;
 }
 
 void ResultsWriter::add(const RunResult& run) {
-  if (has(run.method, run.case_id, run.reseed)) return;
+  if (inputsOf(run.method, run.case_id, run.reseed)) return;
   SqlTransaction transaction(database_);
   insert(run);
   ++batch_run_.runs;
   batch_run_.seconds = 1e-9 * static_cast<double>(steadyNow_ns() - began_ns_);
   noteBatchRun();
   transaction.commit();
+  logEvent(LogLevel::kInfo, [&] {
+    return database_.file().string() + ": stored run of " + run.case_id + ", seed " +
+           std::to_string(run.reseed) + ", method " + run.method + ": " + run.status +
+           (run.digest.empty() ? "" : ", digest " + run.digest) +
+           (run.message.empty() ? "" : ", " + run.message);
+  });
 }
 
 void ResultsWriter::insert(const RunResult& run) {

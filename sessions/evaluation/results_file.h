@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,11 @@
 
 namespace boresight::sessions {
 
-/// SQLite application id ("BSRT") and version of results files.
+/// SQLite application id ("BSRT") and version of results files; files of the version before are
+/// read and merged, but not continued.
 inline constexpr std::int64_t kResultsApplication = 0x42535254;
-inline constexpr std::int64_t kResultsVersion = 5;
+inline constexpr std::int64_t kResultsVersion = 6;
+inline constexpr std::int64_t kOldestResultsVersion = 5;
 
 /// Contents of a results file except the runs.
 struct ResultsFacts {
@@ -28,9 +32,10 @@ struct ResultsFacts {
   DatasetFacts dataset;
   std::vector<MethodFacts> methods;  ///< by name
   std::vector<BatchRun> batch_runs;  ///< in the order in which they began
+  std::int64_t format_version = kResultsVersion;
 };
 
-/// InputError unless the file is a results file of this version.
+/// InputError unless the file is a results file of a version that is read.
 ResultsFacts readResultsFacts(const std::filesystem::path& file);
 
 /// Calls `take` for each run, with tags and without steps, ordered by dataset, then seed, then
@@ -71,9 +76,10 @@ class ResultsWriter {
   void admit(const MethodFacts& method);
   /// Runs added from now on belong to this batch run.
   void begin(BatchRun batch_run);
-  /// Whether the file has a run. A run whose input was rejected does not count, so that it is
-  /// repeated.
-  bool has(const std::string& method, const std::string& case_id, std::int32_t reseed) const;
+  /// RunResult::inputs_sha256 of a run; empty when the file does not have the run. A run whose
+  /// input was rejected does not count, so that it is repeated.
+  std::optional<std::string> inputsOf(const std::string& method, const std::string& case_id,
+                                      std::int32_t reseed) const;
   /// Adds a run; replaces the same run if its input was rejected before. OutputError.
   void add(const RunResult& run);
   /// Records that the batch run ended normally.
@@ -98,12 +104,14 @@ struct MergeCounts {
 /// Merges the runs of results files, e.g. of shards, into `out`; an existing `out` is merged as
 /// well, so that its runs are kept. Runs in several files are taken once when status, success and
 /// digest (pose, for a method without digest) are equal; times may differ. A completed run replaces
-/// one whose input was rejected. The file is written whole or not at all.
+/// one whose input was rejected. The file is written whole or not at all: empty, and `out` as it
+/// was, after a stop.
 ///
 /// InputError, naming both files, when they are of different datasets, versions or options, or a
 /// run has different results in them; OutputError when `out` cannot be written or another process
 /// writes it.
-MergeCounts mergeResults(const std::filesystem::path& out,
-                         const std::vector<std::filesystem::path>& inputs);
+std::optional<MergeCounts> mergeResults(const std::filesystem::path& out,
+                                        const std::vector<std::filesystem::path>& inputs,
+                                        const std::stop_token& stop = {});
 
 }  // namespace boresight::sessions

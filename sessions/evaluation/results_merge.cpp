@@ -62,12 +62,13 @@ class Merge {
     out_.execute("BEGIN");
     takeMethods(facts);
     refuseContradictions(file);
+    refuseOtherInputs(facts);
     equal_ += integerOf(out_.value(std::string("SELECT count(*)") + kCommon +
                                    "WHERE (o.status = 'input_error') = (h.status = "
                                    "'input_error')"));
     removeRefused();
     takeBatchRuns();
-    takeRuns();
+    takeRuns(facts.format_version);
     out_.execute("COMMIT; DETACH other");
   }
 
@@ -103,6 +104,18 @@ class Merge {
                          "); only equal runs can be merged");
   }
 
+  /// Equal results of other inputs; unknown inputs are equal to any.
+  void refuseOtherInputs(const ResultsFacts& facts) {
+    if (facts.format_version != kResultsVersion) return;
+    SqlStatement statement(
+        out_, std::string("SELECT o.case_id") + kCommon +
+                  "WHERE o.inputs_sha256 <> '' AND h.inputs_sha256 <> '' AND o.inputs_sha256 <> "
+                  "h.inputs_sha256 LIMIT 1");
+    if (!statement.step()) return;
+    throw InputError(facts.file, "run of " + textOf(statement.cell(0)),
+                     "it has other inputs in another file; only equal runs can be merged");
+  }
+
   /// Runs whose input was rejected, while the other file has the completed run.
   void removeRefused() {
     const std::string ids = std::string("(SELECT h.id") + kCommon +
@@ -130,7 +143,7 @@ class Merge {
   }
 
   /// Those that are not held, each with an id of its own.
-  void takeRuns() {
+  void takeRuns(std::int64_t version) {
     out_.execute(
         std::string("DROP TABLE IF EXISTS temp.added;"
                     "CREATE TEMP TABLE added AS SELECT id AS old, (SELECT coalesce(max(id), 0) "
@@ -141,13 +154,15 @@ class Merge {
       out_.execute("INSERT INTO main." + table + " (run, " + names + ") SELECT new, " + names +
                    " FROM other." + table + " JOIN added ON old = run");
     };
-    const std::string names = joined(runTable().names());
+    const std::string names = joined(runTableOf(version).names());
+    const bool has_inputs = version == kResultsVersion;
     out_.execute(
-        "INSERT INTO main.run (id, batch_run, " + names + ") SELECT a.new, s.new, " + names +
+        "INSERT INTO main.run (id, batch_run, " + names + (has_inputs ? "" : ", inputs_sha256") +
+        ") SELECT a.new, s.new, " + names + (has_inputs ? "" : ", ''") +
         " FROM other.run JOIN added a ON a.old = id JOIN batch_run_of s ON s.old = batch_run "
         "ORDER BY a.new");
     copy("tag", "tag");
-    copy("iteration", joined(stepTable().names()));
+    copy("iteration", joined(stepTableOf(version).names()));
     copy("match", "step, " + joined(matchTable().names()));
   }
 
@@ -169,7 +184,8 @@ class Merge {
 
 }  // namespace
 
-MergeCounts mergeResults(const fs::path& out, const std::vector<fs::path>& inputs) {
+std::optional<MergeCounts> mergeResults(const fs::path& out, const std::vector<fs::path>& inputs,
+                                        const std::stop_token& stop) {
   requireWritable(out, FileUse::kResults);
   const std::unique_ptr<FileLock> lock = lockResults(out);  // from before `out` is read
   std::vector<fs::path> files;
@@ -181,9 +197,13 @@ MergeCounts mergeResults(const fs::path& out, const std::vector<fs::path>& input
   MergeCounts counts;
   {
     Merge merge(draft.file(), readResultsFacts(files.front()));
-    for (const fs::path& file : files) merge.take(file);
+    for (const fs::path& file : files) {
+      if (stop.stop_requested()) return std::nullopt;
+      merge.take(file);
+    }
     counts = merge.counts();
   }
+  if (stop.stop_requested()) return std::nullopt;
   moveIntoPlace(draft.file(), out, FileUse::kResults);
   return counts;
 }

@@ -34,14 +34,11 @@ RunStep stepOf(const IterationTrace& iteration, std::int32_t index) {
 
 }  // namespace
 
-std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case) {
+std::vector<RunStep> runSteps(const LocalizationTrace& trace, const ErrorOfPose& error_of) {
   std::vector<RunStep> steps;
   for (const auto& iteration : trace.iterations) {
     steps.push_back(stepOf(*iteration, static_cast<std::int32_t>(steps.size())));
-    if (dataset_case.truth_camera_from_station)
-      steps.back().error =
-          poseError(*dataset_case.truth_camera_from_station, iteration->camera_from_station,
-                    dataset_case.camera_from_end_effector);
+    steps.back().error = error_of(iteration->camera_from_station);
   }
   return steps;
 }

@@ -62,13 +62,15 @@ struct RunStep {
   double correction_px = 0.0;
   StageSeconds seconds;
   Pose camera_from_station;           ///< after
-  std::optional<PoseError> error;     ///< of that pose, without the projection error
+  std::optional<PoseError> error;     ///< of that pose, without the errors of BOP
   std::vector<MatchDetails> details;  ///< one per template, where the trace has them
 };
 
-/// One per iteration of the trace; errors where the case's truth is known. Match details are
-/// included when the trace was recorded in full.
-std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case);
+/// The error of a pose of a run; nothing where the truth is not known.
+using ErrorOfPose = std::function<std::optional<PoseError>(const Pose& camera_from_station)>;
+
+/// One per iteration of the trace. Match details are included when the trace was recorded in full.
+std::vector<RunStep> runSteps(const LocalizationTrace& trace, const ErrorOfPose& error_of);
 
 /// Stored data of one run of a batch.
 struct RunResult {
@@ -114,6 +116,9 @@ struct RunResult {
   std::optional<Requirement> requirement;
   StageSeconds seconds;
   std::string digest;
+  /// RunInputs::sha256(), or the SHA-256 of a frame's 8-bit pixels; empty when the input could not
+  /// be read, and in files of earlier versions.
+  std::string inputs_sha256;
   std::vector<RunStep> steps;  ///< of a run in this process; from a results file: readSteps
 
   bool inputFailed() const { return status == "input_error"; }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <functional>
+#include <span>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -125,16 +127,15 @@ Column<Row> partOf(std::string name, std::optional<Struct> Row::*field, Number S
           }};
 }
 
-/// An error has values in the columns of all of its own parts, or in none; those of the model,
-/// which only whole runs have, may be missing.
+/// An error has values in the columns of all of its own parts, or in none; those of the model may
+/// be missing.
 template <class Row>
 void addError(std::vector<Column<Row>>& columns, const std::string& prefix,
-              std::optional<PoseError> Row::*field, bool with_model) {
+              std::optional<PoseError> Row::*field,
+              std::span<const std::pair<const char*, std::optional<double> PoseError::*>> model) {
   for (const auto& [name, part] : kErrorParts)
     columns.push_back(partOf(prefix + name, field, part));
-  if (!with_model) return;
-  for (const auto& [name, part] : kModelErrorParts)
-    columns.push_back(partOf(prefix + name, field, part));
+  for (const auto& [name, part] : model) columns.push_back(partOf(prefix + name, field, part));
 }
 
 SqlValue requirementText(const RunResult& run) {
@@ -203,14 +204,15 @@ std::vector<Column<RunResult>> makeRunColumns() {
       known("least_margin_nats", &Run::least_margin_nats)};
   for (const auto& [name, part] : kImageQualityParts)
     columns.push_back(partOf(name, &Run::image_quality, part));
-  addError(columns, "", &Run::error, true);
-  addError(columns, "seed_", &Run::seed_error, true);
+  addError(columns, "", &Run::error, kModelErrorParts);
+  addError(columns, "seed_", &Run::seed_error, kModelErrorParts);
   columns.push_back({"requirement", "TEXT", requirementText, readRequirementText});
   addSeconds(columns);
   columns.push_back(pose("camera_from_station", &Run::camera_from_station));
   columns.push_back(pose("camera_from_station_seed", &Run::camera_from_station_seed));
   columns.push_back({"seed_quaternion", "TEXT NOT NULL", quaternionText, readQuaternionText});
   columns.push_back(text("digest", &Run::digest));
+  columns.push_back(text("inputs_sha256", &Run::inputs_sha256));
   return columns;
 }
 
@@ -233,7 +235,7 @@ std::vector<Column<RunStep>> makeStepColumns() {
                                        real("correction_px", &Step::correction_px)};
   addSeconds(columns);
   columns.push_back(pose("camera_from_station", &Step::camera_from_station));
-  addError(columns, "", &Step::error, false);
+  addError(columns, "", &Step::error, std::span(kModelErrorParts).first(1));  // projection_px
   return columns;
 }
 
@@ -263,6 +265,14 @@ std::vector<Column<MatchDetails>> makeMatchColumns() {
           real("second_score", &Match::second_score),
           flag("inlier", &Match::inlier),
           real("residual_px", &Match::residual_px)};
+}
+
+constexpr std::int64_t kVersionWithoutInputs = 5;
+
+template <class Row>
+RowTable<Row> withoutLast(RowTable<Row> table) {
+  table.columns.pop_back();
+  return table;
 }
 
 }  // namespace
@@ -299,6 +309,16 @@ const RowTable<RunResult>& runTable() {
 const RowTable<RunStep>& stepTable() {
   static const RowTable<RunStep> kTable = {makeStepColumns()};
   return kTable;
+}
+
+const RowTable<RunResult>& runTableOf(std::int64_t version) {
+  static const RowTable<RunResult> kOlder = withoutLast(runTable());
+  return version == kVersionWithoutInputs ? kOlder : runTable();
+}
+
+const RowTable<RunStep>& stepTableOf(std::int64_t version) {
+  static const RowTable<RunStep> kOlder = withoutLast(stepTable());
+  return version == kVersionWithoutInputs ? kOlder : stepTable();
 }
 
 const RowTable<MatchDetails>& matchTable() {

@@ -2,6 +2,7 @@
 // The rows of a results file. Each table's columns are stated once, in run_rows.cpp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -62,6 +63,10 @@ const RowTable<BatchRun>& batchRunTable();
 const RowTable<RunResult>& runTable();
 /// Without details of matches.
 const RowTable<RunStep>& stepTable();
+/// Both as in results files of a version: 5 has neither `inputs_sha256` nor the steps'
+/// `projection_px`.
+const RowTable<RunResult>& runTableOf(std::int64_t version);
+const RowTable<RunStep>& stepTableOf(std::int64_t version);
 const RowTable<MatchDetails>& matchTable();
 
 }  // namespace boresight::sessions

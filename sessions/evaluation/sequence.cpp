@@ -32,6 +32,7 @@ RunResult Sequence::run(const Frame& frame, const std::stop_token& stop) {
   try {
     if (frame.image) {
       requireSameSize(*frame.image, inputs_.camera);
+      result.inputs_sha256 = frame.image->pixels_sha256;
       localize(*frame.image, stop, result);
     } else {
       result.message = frame.problem;
@@ -60,7 +61,7 @@ void Sequence::localize(const GrayImage& image, const std::stop_token& stop, Run
   runner_->advance(StepUntil::kEnd, stop);
   noteTrace(runner_->trace(), result);
   result.compared = comparedText(runner_->trace(), [](const Pose&) { return std::nullopt; });
-  result.steps = runSteps(runner_->trace(), Case());
+  result.steps = runSteps(runner_->trace(), [](const Pose&) { return std::nullopt; });
 }
 
 void Sequence::take(const RunResult& result) {

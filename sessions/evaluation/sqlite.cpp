@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <string_view>
 #include <utility>
 
 #include "sessions/io/files/errors.h"
@@ -26,6 +27,25 @@ void distrust(sqlite3* handle) {
        {std::pair(SQLITE_DBCONFIG_DEFENSIVE, 1), std::pair(SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0),
         std::pair(SQLITE_DBCONFIG_ENABLE_TRIGGER, 0), std::pair(SQLITE_DBCONFIG_ENABLE_VIEW, 0)})
     sqlite3_db_config(handle, setting, value, nullptr);
+}
+
+/// A path in a URI: all but letters, digits and a few signs as %XX.
+std::string uriPath(const std::string& path) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-";
+  std::string text;
+  for (const char letter : path) {
+    if (kPlain.find(letter) != std::string_view::npos) {
+      text += letter;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(letter);
+    text += '%';
+    text += kDigits[byte / 16];
+    text += kDigits[byte % 16];
+  }
+  return text;
 }
 
 }  // namespace
@@ -62,15 +82,39 @@ SqlDatabase::SqlDatabase(const std::filesystem::path& file, SqlAccess access)
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
     fail("it is a folder, a pipe or a device, not a file");
   if (access == SqlAccess::kRead) noteInput(file, FileUse::kResults);
+  open(file, flagsOf(access));
+  if (access == SqlAccess::kWrite) return;
+  execute("PRAGMA query_only = 1");
+  const int first_read =
+      sqlite3_exec(handle(), "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr) &
+      0xFF;
+  if (first_read == SQLITE_READONLY || first_read == SQLITE_CANTOPEN) openAsItIs();
+}
+
+void SqlDatabase::open(const std::string& name, int flags) {
   sqlite3* handle = nullptr;
-  const int code = sqlite3_open_v2(file.c_str(), &handle, flagsOf(access), nullptr);
+  const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK && handle == nullptr) throw std::bad_alloc();
   require(code);
   distrust(handle);
   sqlite3_extended_result_codes(handle, 1);
   sqlite3_busy_timeout(handle, kPatience_ms);
-  if (access == SqlAccess::kRead) execute("PRAGMA query_only = 1");
+}
+
+/// For a file that SQLite cannot read without writing next to it. Only a file that is complete by
+/// itself is read so: changes in a log would be missed, or half of them taken for the whole.
+void SqlDatabase::openAsItIs() {
+  for (const char* end : {"-wal", "-journal"}) {
+    std::error_code error;
+    std::filesystem::path log = file_;
+    log += end;
+    if (std::filesystem::file_size(log, error) > 0 && !error)
+      fail("its last changes are still in " + log.filename().string() +
+           ", and its folder cannot be written: copy both files to a folder that can");
+  }
+  open("file:" + uriPath(std::filesystem::absolute(file_).string()) + "?immutable=1",
+       SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
 }
 
 SqlDatabase::SqlDatabase(SqlDatabase&&) noexcept = default;

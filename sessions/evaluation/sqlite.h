@@ -32,7 +32,9 @@ enum class SqlAccess {
 };
 
 /// An open SQLite file, read as data: its triggers and views are disabled. Waits up to 10 s for a
-/// file that another process has locked. Not thread-safe.
+/// file that another process has locked. In a folder that cannot be written, a file with a log of
+/// changes next to it (-wal, -journal) is refused; without one it is read as it is, unlocked, where
+/// SQLite itself would have to write. Not thread-safe.
 class SqlDatabase {
  public:
   SqlDatabase(const std::filesystem::path& file, SqlAccess access);
@@ -60,6 +62,9 @@ class SqlDatabase {
   sqlite3* handle() const { return handle_.get(); }
 
  private:
+  void open(const std::string& name, int flags);
+  void openAsItIs();
+
   struct Close {
     void operator()(sqlite3* handle) const;
   };

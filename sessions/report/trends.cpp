@@ -83,6 +83,10 @@ void flagFigure(std::size_t figure, const std::vector<std::size_t>& members,
   }
 }
 
+std::string failedText(const TrendPoint& point) {
+  return point.checks_failed ? std::to_string(*point.checks_failed) : "";
+}
+
 std::string flagsText(const TrendPoint& point) {
   std::string text;
   for (std::size_t figure = 0; figure < kTrendFigures; ++figure)
@@ -161,6 +165,11 @@ std::vector<TrendPoint> trendOf(const Session& session, const std::filesystem::p
       remarks.push_back(file.string() + ": case " + session_case->id + " has no run");
       continue;
     }
+    if (inputsChangedSince(*record, session) || endEffectorChangedSince(*record, session)) {
+      remarks.push_back(file.string() + ": case " + session_case->id +
+                        " is left out: its inputs have changed since its run; run it again");
+      continue;
+    }
     const LocalizationTrace run = loadSnapshot(*record);
     if (!run.converged()) {
       remarks.push_back(file.string() + ": case " + session_case->id + " did not converge");
@@ -185,7 +194,8 @@ std::string trendTable(std::span<const TrendPoint> points) {
   for (const TrendPoint& point : points) {
     std::vector<std::string> row = {point.case_id, point.station};
     for (const double figure : point.figures) row.push_back(fixedText(figure, 3));
-    row.insert(row.end(), {std::to_string(point.checks_failed), point.review, flagsText(point)});
+    const std::string failed = failedText(point);
+    row.insert(row.end(), {failed.empty() ? "-" : failed, point.review, flagsText(point)});
     table.add(row);
   }
   return table.text();
@@ -200,7 +210,7 @@ std::string trendCsv(std::span<const TrendPoint> points) {
             csvField(point.station) + "," + csvField(point.time);
     for (std::size_t figure = 0; figure < kTrendFigures; ++figure)
       text += "," + fixedText(point.figures[figure], 6) + "," + fixedText(point.sigmas[figure], 6);
-    text += "," + std::to_string(point.checks_failed) + "," + csvField(point.review) + "," +
+    text += "," + failedText(point) + "," + csvField(point.review) + "," +
             csvField(flagsText(point)) + "\n";
   }
   return text;

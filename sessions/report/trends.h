@@ -33,13 +33,13 @@ struct TrendPoint {
   std::array<double, kTrendFigures> sigmas{};  ///< of the corrections; 0 of the residual
   std::array<bool, kTrendFigures> outlier{};   ///< see flagOutliers
   std::string review;                          ///< review status
-  int checks_failed = 0;                       ///< of the last decision
+  std::optional<int> checks_failed;            ///< of the decision; empty without one
 
   bool flagged() const;
 };
 
-/// Points of every case with a converged run, in the order of the sessions. Cases without one are
-/// named in `remarks`. InputError.
+/// Points of every case with a converged run of its current inputs, in the order of the sessions.
+/// Other cases are named in `remarks`. InputError.
 std::vector<TrendPoint> trendOf(std::span<const std::filesystem::path> sessions,
                                 std::vector<std::string>& remarks);
 /// The same of one session, without flags of outliers. After a stop, returns the points so far.

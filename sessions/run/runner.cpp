@@ -6,8 +6,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "sessions/log/program_log.h"
 #include "sessions/run/stepped_run.h"
 #include "sessions/run/worker_pool.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -16,6 +18,26 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void logEnds(const std::vector<LocalizationTrace>& traces) {
+  for (const LocalizationTrace& trace : traces)
+    logEvent(LogLevel::kInfo, [&trace] {
+      return std::string("run ends: ") + localizationStatusText(trace.status) + ", " +
+             std::to_string(trace.iterations.size()) + " iterations, " +
+             fixedText(trace.seconds.total(), 3) + " s, digest " + trace.digest;
+    });
+}
+
+/// A run that cannot begin ends at once.
+void logBeginning(const ImageView& image, const MeshView& mesh,
+                  const std::vector<LocalizationTrace>& traces) {
+  logEvent(LogLevel::kInfo, [&] {
+    return "run begins: version " + traces.front().version + ", " + std::to_string(traces.size()) +
+           " image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+           " px, mesh of " + std::to_string(mesh.faces.size()) + " faces";
+  });
+  if (traces.front().finished) logEnds(traces);
 }
 
 RunSettings resolved(RunSettings settings) {
@@ -49,6 +71,7 @@ Runner::Runner(const LocalizationProblem& problem, const RunPlan& plan,
   const Clock::time_point start = Clock::now();
   stepped_ = stepOneView(problem, plan, resolved(settings));
   stepped_->traces.front().seconds.initialization = secondsSince(start);
+  logBeginning(problem.image, problem.mesh, traces());
 }
 
 Runner::Runner(const ViewsProblem& problem, const LocalizerOptions& options,
@@ -57,15 +80,20 @@ Runner::Runner(const ViewsProblem& problem, const LocalizerOptions& options,
   stepped_ = stepSeveralViews(problem, options, case_ids, resolved(settings));
   const double seconds = secondsSince(start);
   for (LocalizationTrace& trace : stepped_->traces) trace.seconds.initialization = seconds;
+  logBeginning(problem.views.front().image, problem.views.front().mesh, traces());
 }
 
-Runner::~Runner() = default;
+Runner::~Runner() {
+  if (!stepped_->traces.front().finished)
+    logEvent(LogLevel::kInfo, [] { return std::string("run stopped before its end"); });
+}
 
 void Runner::restart(const LocalizationProblem& problem) {
   const Clock::time_point start = Clock::now();
   iteration_seconds_ = {};
   stepped_->restart(problem);
   stepped_->traces.front().seconds.initialization = secondsSince(start);
+  logBeginning(problem.image, problem.mesh, traces());
 }
 
 const std::vector<LocalizationTrace>& Runner::traces() const { return stepped_->traces; }
@@ -116,7 +144,9 @@ void Runner::note(const StepReport& report, double seconds) {
     stepped_->noteIteration(report, iteration_seconds_);
     if (report.iteration_complete) iteration_seconds_ = {};
   }
-  if (report.finished) stepped_->finish();
+  if (!report.finished) return;
+  stepped_->finish();
+  logEnds(stepped_->traces);
 }
 
 void SteppedRun::restart(const LocalizationProblem&) {

@@ -10,6 +10,7 @@
 #include "sessions/io/cameras/camera_field.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_fields.h"
+#include "sessions/log/program_log.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/input_check.h"
@@ -31,6 +32,18 @@ std::optional<IgnoreMask> loadMask(const SessionCase& session_case, const GrayIm
   return mask;
 }
 
+/// "case ID: inputs SHA-256 ...; image FILE, SHA-256 ...; mesh FILE, SHA-256 ...".
+std::string inputsText(const SessionCase& session_case) {
+  const auto named = [](const fs::path& file, const std::string& sha256) {
+    return " " + file.string() + ", SHA-256 " + sha256;
+  };
+  std::string text = "case " + session_case.id + ": inputs SHA-256 " + inputsDigest(session_case);
+  text += "; image" + named(session_case.image.source.file, session_case.image.source.sha256);
+  for (const MeshInput& part : session_case.parts)
+    text += "; mesh" + named(part.source.mesh, part.sha256);
+  return text;
+}
+
 std::shared_ptr<const LoadedCase> completed(const SessionCase& session_case, GrayImage image,
                                             SceneMesh scene) {
   auto loaded = std::make_shared<LoadedCase>();
@@ -39,6 +52,7 @@ std::shared_ptr<const LoadedCase> completed(const SessionCase& session_case, Gra
   loaded->scene = std::move(scene);
   loaded->ignore = loadMask(session_case, loaded->image);
   if (loaded->ignore) loaded->ignore_bits = loaded->ignore->view();
+  logEvent(LogLevel::kInfo, [&session_case] { return inputsText(session_case); });
   return loaded;
 }
 

@@ -8,7 +8,9 @@
 #include "core/base/math.h"
 #include "sessions/baselines/methods.h"
 #include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_check.h"
 #include "sessions/version.h"
@@ -16,7 +18,17 @@
 namespace boresight::sessions {
 namespace {
 
-/// Of the sequence as a dataset: its images by their place alone. The case's own image is none.
+/// How samples become 8 bit.
+nlohmann::ordered_json ruleJson(const ImageReadOptions& rule) {
+  nlohmann::ordered_json json = {{"table", rule.table}};
+  if (rule.bit_depth) json["bit_depth"] = *rule.bit_depth;
+  if (rule.levels) json["levels"] = {rule.levels->black, rule.levels->white};
+  if (rule.bayer) json["bayer"] = kBayerPatternNames[static_cast<std::size_t>(*rule.bayer)];
+  return json;
+}
+
+/// Of the sequence as a dataset: its images by their place and rule. The case's own image is none;
+/// the pixels of a frame are stored with its run.
 DatasetFacts sequenceFacts(const SequenceOrder& order, std::int64_t frames) {
   SessionCase without_image = order.session_case;
   without_image.image = {};
@@ -26,7 +38,10 @@ DatasetFacts sequenceFacts(const SequenceOrder& order, std::int64_t frames) {
   facts.version = kVersion;
   nlohmann::ordered_json inputs = {{"images", facts.dataset},
                                    {"inputs", inputsDigest(without_image)},
-                                   {"motion", toJson(order.motion)}};
+                                   {"motion", toJson(order.motion)},
+                                   {"rule", ruleJson(order.session_case.image.eight_bit)}};
+  if (order.session_case.camera_from_end_effector)
+    inputs["end_effector"] = toJson(*order.session_case.camera_from_end_effector);
   facts.dataset_sha256 = sha256Text(inputs.dump());
   return facts;
 }
@@ -88,10 +103,12 @@ CaseSequence::CaseSequence(const SequenceOrder& order, SequenceInputs inputs,
                            std::unique_ptr<FrameSource> source)
     : source_(std::move(source)),
       total_(source_->count()),
+      results_(order.results),
       writer_(order.results, sequenceFacts(order, total_)),
       sequence_(std::move(inputs)) {
   writer_.admit(methodFacts(kWhs, order.profile, order.options));
   earlier_ = earlierResults(order.results);
+  for (const auto& [name, result] : earlier_) places_.insert(result.dataset_index);
   writer_.begin(sequenceBatchRun(order));
   began_ = std::chrono::steady_clock::now();
   readAhead();
@@ -110,6 +127,7 @@ std::optional<RunResult> CaseSequence::next(const std::stop_token& stop) {
     return std::nullopt;
   }
   readAhead();
+  requireSamePlace(*frame);
   if (const auto known = earlier_.find(frame->name); known != earlier_.end()) {
     sequence_.take(known->second);
     return known->second;
@@ -120,6 +138,25 @@ std::optional<RunResult> CaseSequence::next(const std::stop_token& stop) {
   ++localized_;
   passed_ = std::chrono::steady_clock::now() - began_;
   return result;
+}
+
+void CaseSequence::requireSamePlace(const Frame& frame) const {
+  const auto refuse = [this, &frame](const std::string& change) {
+    throw OutputError(results_, "frame " + frame.name + " " + change + "; name another file");
+  };
+  const std::int64_t place = sequence_.frames();
+  const auto known = earlier_.find(frame.name);
+  if (known == earlier_.end()) {
+    if (places_.contains(place)) refuse("was added between frames that are done");
+    return;
+  }
+  const RunResult& held = known->second;
+  if (held.dataset_index != place)
+    refuse("was number " + std::to_string(held.dataset_index + 1) + " and is number " +
+           std::to_string(place + 1) + " now");
+  if (frame.image && !held.inputs_sha256.empty() &&
+      held.inputs_sha256 != frame.image->pixels_sha256)
+    refuse("has other pixels than when it was localized");
 }
 
 double CaseSequence::framesPerSecond() const {

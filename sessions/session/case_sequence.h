@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 
@@ -46,7 +47,8 @@ class CaseSequence {
   CaseSequence(const CaseSequence&) = delete;
   CaseSequence& operator=(const CaseSequence&) = delete;
 
-  /// The result of the next frame; empty after the last one and after a stop. OutputError.
+  /// The result of the next frame; empty after the last one and after a stop. OutputError, also
+  /// when frames that are done were changed, or others added or removed between them.
   std::optional<RunResult> next(const std::stop_token& stop = {});
 
   /// Number of frames as the source states it; 0 where it states none.
@@ -62,11 +64,15 @@ class CaseSequence {
 
  private:
   void readAhead();
+  /// OutputError when the frame, or the place that it takes, is not as in the results file.
+  void requireSamePlace(const Frame& frame) const;
 
   std::unique_ptr<FrameSource> source_;
   std::int64_t total_;
+  std::filesystem::path results_;
   ResultsWriter writer_;
   std::map<std::string, RunResult> earlier_;  ///< by the frame's name
+  std::set<std::int64_t> places_;             ///< of the earlier ones in the sequence, from 0
   Sequence sequence_;
   std::chrono::steady_clock::time_point began_;
   std::chrono::duration<double> passed_{0.0};

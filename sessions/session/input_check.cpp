@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxInputBytes = 4096 * kMegabyte;
 constexpr std::size_t kMaxSearched = 100000;
 
 /// One file that a case depends on.
@@ -207,12 +206,6 @@ void acceptFrames(SessionCase& session_case) {
 }
 
 }  // namespace
-
-std::string inputSha256(const fs::path& file) {
-  if (knownMeshFormat(file)) return readMeshFiles(file).sha256;
-  if (const auto label = labelFileOf(file)) return readLabelFiles(*label).sha256;
-  return sha256Text(readFileBytes(file, kMaxInputBytes));
-}
 
 std::vector<Finding> checkInputs(const Session& session) {
   std::map<fs::path, FileState> states;  // each file is hashed once, however many cases share it

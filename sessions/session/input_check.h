@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sessions/io/datasets/dataset_file.h"
 #include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/session/session.h"
 
@@ -26,10 +27,6 @@ struct Finding {
 /// Reads every file that the session names, each once, and compares its hash. Findings are reported
 /// and nothing is changed; a run of a case rejects changed inputs as well.
 std::vector<Finding> checkInputs(const Session& session);
-
-/// SHA-256 of a file as stored in sessions: of its bytes; of a glTF mesh with its buffers, of an
-/// image with its label where the label is another file. InputError.
-std::string inputSha256(const std::filesystem::path& file);
 
 /// A moved file and its new path.
 struct Relink {

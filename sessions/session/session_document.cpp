@@ -12,6 +12,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/log/program_log.h"
 #include "sessions/session/session_file.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/utc_time.h"
@@ -147,7 +148,7 @@ void SessionDocument::takeLock() {
         "it is open already: " +
         (lock_->other() ? lock_->other()->text() : std::string("by another program"));
   else if (lock_->stale())
-    notices_.push_back("the last program did not close it: " + lock_->stale()->text());
+    notice("the last program did not close it: " + lock_->stale()->text());
 }
 
 void SessionDocument::readJournalBeside() {
@@ -162,6 +163,10 @@ void SessionDocument::readJournalBeside() {
       if (!readOnly()) fs::remove(file, error);
     } else if (left.base_sha256 == file_sha256_) {
       recovery_ = std::move(left);
+      logEvent(LogLevel::kInfo, [this] {
+        return file_.string() + ": " + countText(recovery_->edits.size(), "unsaved edit") +
+               " of an earlier program, last at " + recovery_->time;
+      });
     } else {
       setJournalAside("it belongs to another state of the file");
     }
@@ -171,17 +176,22 @@ void SessionDocument::readJournalBeside() {
   }
 }
 
+void SessionDocument::notice(const std::string& text) {
+  notices_.push_back(text);
+  logEvent(LogLevel::kInfo, [&] { return file_.string() + ": " + text; });
+}
+
 void SessionDocument::setJournalAside(const std::string& why) {
   const fs::path file = journalFileOf(file_);
   if (readOnly()) {
-    notices_.push_back("the journal " + file.string() + " was not used: " + why);
+    notice("the journal " + file.string() + " was not used: " + why);
     return;
   }
   const fs::path aside = asideName(file);
   std::error_code error;
   fs::rename(file, aside, error);
   if (error) throw OutputError(aside, error.message());
-  notices_.push_back("the journal was set aside as " + aside.string() + ": " + why);
+  notice("the journal was set aside as " + aside.string() + ": " + why);
 }
 
 void SessionDocument::requireEditable() const {
@@ -199,6 +209,8 @@ void SessionDocument::acceptRecovery() {
   journal_ = std::move(journal);
   session_ = std::move(recovery_->session);
   recovery_.reset();
+  logEvent(LogLevel::kInfo,
+           [this] { return file_.string() + ": recovered the edits of an earlier program"; });
 }
 
 void SessionDocument::declineRecovery() {

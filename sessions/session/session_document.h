@@ -92,6 +92,7 @@ class SessionDocument {
   explicit SessionDocument(const std::filesystem::path& file);
   void takeLock();
   void readJournalBeside();
+  void notice(const std::string& text);
   void setJournalAside(const std::string& why);
   void requireEditable() const;
 

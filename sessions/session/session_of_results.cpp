@@ -9,6 +9,7 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/results_file.h"
+#include "sessions/evaluation/run_inputs.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/config_file.h"
@@ -42,6 +43,14 @@ void requireSameDataset(const ResultsFacts& facts) {
   if (current != facts.dataset.dataset_sha256)
     throw InputError(facts.file, "its dataset " + facts.dataset.dataset +
                                      " has changed since: evaluate again into a new file");
+}
+
+void requireSameInputs(const ResultsFacts& facts, const std::vector<RunResult>& runs) {
+  const Dataset dataset = readDataset(facts.dataset.dataset);
+  RunInputs inputs(dataset);
+  for (const RunResult& run : runs)
+    if (const Case* dataset_case = dataset.findCase(run.case_id))
+      inputs.requireUnchanged(*dataset_case, run.inputs_sha256, facts.file);
 }
 
 /// The runs that began, the worst first.
@@ -110,6 +119,7 @@ Session sessionOfResults(const std::filesystem::path& results_file) {
   std::vector<std::string> ids;
   for (const RunResult& run : runs) ids.push_back(run.case_id);
   if (ids.empty()) throw InputError(results_file, "none of its runs could start");
+  requireSameInputs(facts, runs);
   Session session = makeSession(facts.dataset.dataset, ids);
   std::map<std::string, SharedValue<SessionCase>> by_id;
   for (const auto& session_case : session.cases) by_id.emplace(session_case->id, session_case);

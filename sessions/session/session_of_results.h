@@ -31,7 +31,8 @@ std::string resultCaseId(const RunResult& run);
 /// A session of a results file's runs of WHS, one case per run, with the run's seed and a tag with
 /// its outcome. Profile and options are those of the runs: a new run repeats the listed one bit for
 /// bit. The worst come first: failed runs, then by error share; rejected inputs are left out.
-/// InputError when the file or the dataset that it names cannot be read, the dataset has changed,
+/// InputError when the file or the dataset that it names cannot be read, the dataset or an input of
+/// a run has changed,
 /// there are no such runs, or their meshes were deliberately wrong.
 Session sessionOfResults(const std::filesystem::path& results_file);
 

@@ -11,6 +11,7 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/results_file.h"
+#include "sessions/evaluation/run_inputs.h"
 #include "sessions/io/datasets/dataset_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/review/thumbnail.h"
@@ -86,12 +87,17 @@ std::vector<Failure> failuresOfFile(const std::filesystem::path& file,
                                     const ResultsFilter& filter) {
   const ResultsFacts facts = readResultsFacts(file);
   std::map<std::string, std::string> notes;
-  for (const MethodFacts& method : facts.methods) notes[method.method] = meshNote(method);
+  std::map<std::string, std::string> stations;
+  for (const MethodFacts& method : facts.methods) {
+    notes[method.method] = meshNote(method);
+    stations[method.method] = method.mesh_of;
+  }
   std::vector<Failure> failures;
   forEachRun(file, [&](const RunResult& run) {
     const bool failed = !run.completed || run.success == false || run.false_positive;
     if (failed && filter.takes(run))
-      failures.push_back({run, facts.dataset.dataset, notes[run.method]});
+      failures.push_back(
+          {run, facts.dataset.dataset, notes[run.method], stations[run.method], file});
   });
   std::vector<RunResult*> runs;
   for (Failure& failure : failures) runs.push_back(&failure.run);
@@ -114,11 +120,20 @@ struct Inputs {
   std::map<std::filesystem::path, Dataset> datasets;
   /// By placed parts; a list, whose elements stay in place.
   std::list<std::pair<std::vector<PartSource>, SceneMesh>> scenes;
+  std::map<std::pair<std::filesystem::path, std::string>, RunInputs> hashes;  ///< by mesh, too
 
   const Dataset& datasetOf(const std::filesystem::path& file) {
     const auto known = datasets.find(file);
     return known != datasets.end() ? known->second
                                    : datasets.emplace(file, readDataset(file)).first->second;
+  }
+
+  /// InputError when the inputs of the run have changed since.
+  void requireUnchanged(const Failure& failure, const Dataset& dataset, const Case& dataset_case) {
+    RunInputs& inputs =
+        hashes.try_emplace(std::pair(failure.dataset, failure.mesh_of), dataset, failure.mesh_of)
+            .first->second;
+    inputs.requireUnchanged(dataset_case, failure.run.inputs_sha256, failure.results);
   }
 
   const SceneMesh& sceneOf(const Dataset& dataset, const Case& dataset_case) {
@@ -154,6 +169,7 @@ ColorImage pictureOf(const Failure& failure, Inputs& inputs, int width_px, int h
   const Case* dataset_case = dataset.findCase(failure.run.case_id);
   if (dataset_case == nullptr)
     throw InputError(failure.dataset, "it has no case " + failure.run.case_id);
+  inputs.requireUnchanged(failure, dataset, *dataset_case);
   const GrayImage image = readCaseImage(dataset, *dataset_case);
   const SceneMesh& scene = inputs.sceneOf(dataset, *dataset_case);
   std::vector<Pose> framed = {failure.run.camera_from_station_seed};
@@ -269,14 +285,15 @@ std::vector<Failure> failuresOf(const std::vector<std::filesystem::path>& files,
   return failures;
 }
 
-std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format) {
+std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format,
+                                  const std::stop_token& stop) {
   if (failures.empty()) return {};
   const std::size_t pages = (failures.size() + kPerPage - 1) / kPerPage;
   const bool in_one = format == CanvasFormat::kPdf;
   Inputs inputs;
   std::vector<Figure> made;
   std::unique_ptr<PdfCanvas> canvas;
-  for (std::size_t page = 0; page < pages; ++page) {
+  for (std::size_t page = 0; page < pages && !stop.stop_requested(); ++page) {
     const auto on_page = failures.subspan(page * kPerPage);
     if (canvas && in_one)
       canvas->nextPage();
@@ -290,7 +307,7 @@ std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasForma
     const std::string name = std::string(kFailureFigure) + "_" + std::to_string(page + 1);
     made.push_back({name, canvas->finish()});
   }
-  if (in_one) made.push_back({kFailureFigure, canvas->finish()});
+  if (in_one && canvas) made.push_back({kFailureFigure, canvas->finish()});
   return made;
 }
 

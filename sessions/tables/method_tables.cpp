@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "sessions/tables/binomial_bounds.h"
 #include "sessions/tables/paper_figures.h"
@@ -59,17 +60,30 @@ bool succeedsAtLimit(const RunResult& run) {
          run.steps.back().error && meetsRequirement(*run.steps.back().error, *run.requirement);
 }
 
-void count(const RunResult& run, MethodFigures& figures) {
-  const bool at_limit = endedAtLimit(run);
-  ++figures.runs;
-  figures.completed.count += run.completed ? 1 : 0;
-  figures.at_limit += at_limit ? 1 : 0;
-  figures.gross_false_positives += run.gross_false_positive ? 1 : 0;
-  if (!run.success) return;
-  ++figures.success.runs;
-  figures.success.count += *run.success ? 1 : 0;
-  figures.false_positives.count += run.false_positive ? 1 : 0;
-  figures.success_with_limit.count += *run.success || succeedsAtLimit(run) ? 1 : 0;
+/// An image of a dataset: cases of several datasets may share an id.
+std::pair<std::string, std::string> imageOf(const RunResult& run) {
+  return {run.case_id, run.inputs_sha256};
+}
+
+/// The share of the runs that count.
+template <class Counts>
+CountedShare shareOf(const std::vector<const RunResult*>& runs, Counts counts) {
+  CountedShare share;
+  std::map<std::pair<std::string, std::string>, std::pair<bool, bool>> images;  // all, any
+  for (const RunResult* run : runs) {
+    const bool counted = counts(*run);
+    ++share.runs;
+    share.count += counted ? 1 : 0;
+    auto& [all, any] = images.try_emplace(imageOf(*run), true, false).first->second;
+    all = all && counted;
+    any = any || counted;
+  }
+  share.images = static_cast<std::int64_t>(images.size());
+  for (const auto& [image, ends] : images) {
+    share.whole_images += ends.first ? 1 : 0;
+    share.touched_images += ends.second ? 1 : 0;
+  }
+  return share;
 }
 
 /// The seeds of runs, each once, as if each were what a run had ended with.
@@ -120,9 +134,10 @@ struct GroupKey {
 
 const Parts kNoShare(2);
 
-/// What the paper's percent of its runs was a count of.
+/// The count of runs that the paper states as a percentage; an image each.
 CountedShare paperShare(double percent, int runs) {
-  return {std::llround(0.01 * percent * runs), runs};
+  const std::int64_t count = std::llround(0.01 * percent * runs);
+  return {count, runs, runs, count, count};
 }
 
 std::string paperName(const std::string& method) { return method + " (paper)"; }
@@ -205,12 +220,12 @@ std::optional<double> CountedShare::percent() const { return percentOf(count, ru
 
 std::optional<double> CountedShare::leastPercent() const {
   if (runs == 0) return std::nullopt;
-  return 100.0 * lowerBound(count, runs);
+  return 100.0 * lowerBound(whole_images, images);
 }
 
 std::optional<double> CountedShare::mostPercent() const {
   if (runs == 0) return std::nullopt;
-  return 100.0 * upperBound(count, runs);
+  return 100.0 * upperBound(touched_images, images);
 }
 
 std::vector<TableColumn> groupColumns(const std::vector<TableColumn>& further) {
@@ -250,15 +265,25 @@ MethodFigures figuresOf(std::span<const RunResult* const> runs) {
   MethodFigures figures;
   std::set<std::string> cases;
   std::vector<double> iterations;
+  std::vector<const RunResult*> judged;
   for (const RunResult* run : runs) {
     cases.insert(run->case_id);
-    count(*run, figures);
+    figures.at_limit += endedAtLimit(*run) ? 1 : 0;
+    figures.gross_false_positives += run->gross_false_positive ? 1 : 0;
     if (run->completed) iterations.push_back(run->iterations);
+    if (run->success) judged.push_back(run);
   }
+  figures.runs = static_cast<std::int64_t>(runs.size());
   figures.cases = static_cast<std::int64_t>(cases.size());
-  figures.completed.runs = figures.completed_with_limit.runs = figures.runs;
-  figures.completed_with_limit.count = figures.completed.count + figures.at_limit;
-  figures.false_positives.runs = figures.success_with_limit.runs = figures.success.runs;
+  const std::vector<const RunResult*> all(runs.begin(), runs.end());
+  figures.completed = shareOf(all, [](const RunResult& run) { return run.completed; });
+  figures.completed_with_limit =
+      shareOf(all, [](const RunResult& run) { return run.completed || endedAtLimit(run); });
+  figures.success = shareOf(judged, [](const RunResult& run) { return *run.success; });
+  figures.false_positives =
+      shareOf(judged, [](const RunResult& run) { return run.false_positive; });
+  figures.success_with_limit =
+      shareOf(judged, [](const RunResult& run) { return *run.success || succeedsAtLimit(run); });
   figures.iterations = statistics(iterations);
   for (std::size_t i = 0; i < kJudgedFigures.size(); ++i)
     figures.within_percent[i] = percentWithinFigure(runs, kJudgedFigures[i]);

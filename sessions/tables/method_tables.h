@@ -14,11 +14,16 @@
 
 namespace boresight::sessions {
 
-/// A count of runs with its percent and the one-sided 95 % bounds of Clopper and Pearson, which
-/// treat runs as independent. Empty without runs.
+/// A count of runs with its percent and the one-sided 95 % bounds of Clopper and Pearson. Runs from
+/// several seeds of one image are not independent: the bounds are of images, of which one counts
+/// for the lower bound when all of its runs count, for the upper bound when any does. Empty without
+/// runs.
 struct CountedShare {
   std::int64_t count = 0;
   std::int64_t runs = 0;
+  std::int64_t images = 0;
+  std::int64_t whole_images = 0;    ///< all of whose runs count
+  std::int64_t touched_images = 0;  ///< any of whose runs counts
 
   std::optional<double> percent() const;
   std::optional<double> leastPercent() const;
@@ -31,8 +36,8 @@ inline const std::vector<std::string> kMost = {"measured", "at most"};
 std::vector<std::optional<double>> leastCell(const CountedShare& share);
 std::vector<std::optional<double>> mostCell(const CountedShare& share);
 inline constexpr const char* kBoundsNote =
-    "At least, at most: one-sided 95 % bounds (Clopper-Pearson), as if runs were independent; runs "
-    "from several seeds of one image are not.";
+    "At least, at most: one-sided 95 % bounds (Clopper-Pearson) over images; an image counts when "
+    "all of its runs do (at most: any).";
 
 /// Figures of one method on the near or the far cases of a station. Runs whose input was rejected
 /// are not counted.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,8 @@ struct Failure {
   RunResult run;                  ///< with its steps
   std::filesystem::path dataset;  ///< as its results file names it
   std::string mesh_note;          ///< "WRONG mesh ..." where the method was given one; else empty
+  std::string mesh_of = {};       ///< the station of that mesh; else empty
+  std::filesystem::path results = {};
 };
 
 /// The runs of the files that meet the filter and did not complete, or completed beyond their
@@ -102,8 +105,10 @@ inline constexpr const char* kFailureFigure = "failures";
 /// and of the final pose (green; of a run that did not complete: its iteration nearest to the
 /// truth, its first one where none was nearer than the seed, or its last without truth), and its
 /// story below. One PDF, "failures", or a picture a page, "failures_1", ... Where images cannot be
-/// read (or the dataset was a BOP folder) the reason replaces the picture. Empty without failures.
-/// std::bad_alloc or std::runtime_error when they cannot be drawn.
-std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format);
+/// read (or the dataset was a BOP folder) the reason replaces the picture. Empty without failures;
+/// after a stop the pages drawn so far. std::bad_alloc or std::runtime_error when they cannot be
+/// drawn.
+std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format,
+                                  const std::stop_token& stop = {});
 
 }  // namespace boresight::sessions

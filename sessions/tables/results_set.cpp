@@ -29,25 +29,63 @@ bool selects(const std::vector<std::string>& filter, const std::string& value) {
   return filter.empty() || std::find(filter.begin(), filter.end(), value) != filter.end();
 }
 
-/// Everything but the note decides whether runs belong into one row.
-auto settingsOf(const MethodFacts& facts) {
-  return std::tie(facts.profile, facts.options_sha256, facts.reseed_scale, facts.mesh_of,
-                  facts.mirror, facts.note);
+/// A method of a file, with everything that decides whether runs belong into one row.
+struct Variant {
+  MethodFacts facts;
+  std::string version;  ///< of the program
+  std::string file;     ///< without its ending, of the first file that has it
+  std::string shown;
+
+  auto settings() const {
+    return std::tie(facts.method, facts.profile, facts.options_sha256, facts.reseed_scale,
+                    facts.mesh_of, facts.mirror, facts.note);
+  }
+  bool same(const Variant& other) const {
+    return settings() == other.settings() && version == other.version;
+  }
+};
+
+/// The variants of all methods, each once.
+std::vector<Variant> variantsOf(const std::vector<ResultsFacts>& files) {
+  std::vector<Variant> variants;
+  for (const ResultsFacts& file : files)
+    for (const MethodFacts& facts : file.methods) {
+      const Variant variant{facts, file.dataset.version, file.file.stem().string(), {}};
+      if (std::ranges::none_of(variants, [&](const Variant& other) { return other.same(variant); }))
+        variants.push_back(variant);
+    }
+  return variants;
 }
 
-/// The names of a method's variants: by the method alone, with the profile, with the file.
-std::string shownName(const std::vector<ResultsFacts>& files, const ResultsFacts& file,
-                      const MethodFacts& method) {
-  bool others = false;
-  bool others_of_profile = false;
-  for (const ResultsFacts& other : files)
-    for (const MethodFacts& facts : other.methods) {
-      if (facts.method != method.method || settingsOf(facts) == settingsOf(method)) continue;
-      others = true;
-      others_of_profile = others_of_profile || facts.profile == method.profile;
-    }
-  if (!others) return method.method;
-  return method.method + " " + (others_of_profile ? file.file.stem().string() : method.profile);
+/// By the method alone; where it has variants, with what sets the variant apart from the others:
+/// its profile, its version of the program, or else its file.
+std::string nameOf(const Variant& variant, const std::vector<Variant>& variants) {
+  bool alone = true;
+  bool profile_tells = true;
+  bool version_tells = true;
+  for (const Variant& other : variants) {
+    if (other.facts.method != variant.facts.method || other.same(variant)) continue;
+    alone = false;
+    profile_tells = profile_tells && other.facts.profile != variant.facts.profile;
+    version_tells = version_tells && other.version != variant.version;
+  }
+  const std::string& method = variant.facts.method;
+  if (alone) return method;
+  if (profile_tells) return method + " " + variant.facts.profile;
+  return method + " " + (version_tells ? variant.version : variant.file);
+}
+
+/// Names them; equal names are numbered, because files in several folders may have one name.
+std::vector<Variant> namedVariants(const std::vector<ResultsFacts>& files) {
+  std::vector<Variant> variants = variantsOf(files);
+  std::set<std::string> taken;
+  for (Variant& variant : variants) {
+    const std::string name = nameOf(variant, variants);
+    variant.shown = name;
+    for (int number = 2; !taken.insert(variant.shown).second; ++number)
+      variant.shown = name + " (" + std::to_string(number) + ")";
+  }
+  return variants;
 }
 
 /// The iterations of runs that ended at the limit of iterations: tables judge their last pose.
@@ -189,14 +227,18 @@ ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
                           const ResultsFilter& filter) {
   ResultsSet set;
   for (const std::filesystem::path& file : files) set.files.push_back(readResultsFacts(file));
+  const std::vector<Variant> variants = namedVariants(set.files);
   // Which file holds a run, so that none counts twice.
   std::map<std::tuple<std::string, std::string, std::int32_t, std::string>, const ResultsFacts*>
       seen;
   for (const ResultsFacts& file : set.files) {
     std::map<std::string, std::string> shown;
     for (const MethodFacts& method : file.methods) {
-      shown[method.method] = shownName(set.files, file, method);
-      set.methods[shown[method.method]] = method;
+      const Variant wanted{method, file.dataset.version, {}, {}};
+      const auto variant =
+          std::ranges::find_if(variants, [&](const Variant& other) { return other.same(wanted); });
+      shown[method.method] = variant->shown;
+      set.methods[variant->shown] = method;
     }
     const std::size_t first = set.runs.size();
     forEachRun(file.file, [&](RunResult&& run) {

@@ -16,7 +16,8 @@
 namespace boresight::sessions {
 
 /// Runs of any number of methods. A run's `method` is its displayed name. Where files have a method
-/// with different options, the profile follows, or the file's name if the profile is the same.
+/// with different options or versions, what sets its variant apart follows: profile, version, or
+/// file name, with a number where two files have one name.
 struct ResultsSet {
   std::vector<ResultsFacts> files;
   std::vector<RunResult> runs;

@@ -25,10 +25,13 @@ constexpr std::size_t kDistances = 3;
 Strata strataByTag(const Runs& runs, const std::string& kind) {
   std::map<std::string, Runs> groups;
   for (const RunResult* run : runs) {
-    std::string name = kNoTag;
-    for (const std::string& tag : run->tags)
-      if (tag.starts_with(kind + "_")) name = tag.substr(kind.size() + 1);
-    groups[name].push_back(run);
+    bool tagged = false;
+    for (const std::string& tag : run->tags) {  // a run with two tags of a kind is in both strata
+      if (!tag.starts_with(kind + "_")) continue;
+      tagged = true;
+      groups[tag.substr(kind.size() + 1)].push_back(run);
+    }
+    if (!tagged) groups[kNoTag].push_back(run);
   }
   return {groups.begin(), groups.end()};
 }
@@ -96,26 +99,27 @@ Table strataTable(std::span<const RunResult> runs) {
 }
 
 Table demonstrationTable(std::span<const RunResult> runs, double required) {
-  Table table{"demonstration",
-              "Success rate that the runs demonstrate",
-              groupColumns({{"runs"},
-                            {"failures"},
-                            {"demonstrated %", {}, 2},
-                            {"required %", {}, 2},
-                            {"runs needed"},
-                            {"runs missing"}}),
-              {},
-              {"Runs needed: independent runs that demonstrate the required rate with this number "
-               "of failures.",
-               kBoundsNote}};
+  Table table{
+      "demonstration",
+      "Success rate that the runs demonstrate",
+      groupColumns({{"images"},
+                    {"failed images"},
+                    {"demonstrated %", {}, 2},
+                    {"required %", {}, 2},
+                    {"images needed"},
+                    {"images missing"}}),
+      {},
+      {"Images needed: images that demonstrate the required rate with this number of failed "
+       "ones, on which a run failed.",
+       kBoundsNote}};
   for (const RunGroup& group : runGroups(runs)) {
     const CountedShare success = figuresOf(group.runs).success;
     if (success.runs == 0) continue;
-    const std::int64_t failures = success.runs - success.count;
+    const std::int64_t failures = success.images - success.whole_images;
     const std::int64_t needed = runsNeeded(required, failures);
-    table.rows.push_back({group.station, rangeText(group.far), group.method, success.runs, failures,
-                          success.leastPercent(), 100.0 * required, needed,
-                          std::max<std::int64_t>(0, needed - success.runs)});
+    table.rows.push_back({group.station, rangeText(group.far), group.method, success.images,
+                          failures, success.leastPercent(), 100.0 * required, needed,
+                          std::max<std::int64_t>(0, needed - success.images)});
   }
   return table;
 }

@@ -97,6 +97,23 @@ TEST_F(WhsEvaluate, ReportsABadCaseAndGoesOn) {
   EXPECT_EQ(results[2]["status"], "iteration_limit");
 }
 
+TEST_F(WhsEvaluate, MeshThatChangedUnderItsName_IsNotMixedWithRunsOfTheFormerOne) {
+  const std::string file = copyOfExample(folder_);
+  const Arguments arguments = evaluateArguments(file, with({"--station", "os"}, kQuick));
+  runWhs(arguments, 0);
+  EXPECT_THAT(runWhs(arguments, 0).err, HasSubstr("resumed, 1 of 1 runs are done"));
+  std::string mesh;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / "stations/os"))
+    if (entry.path().extension() == ".ply") mesh = entry.path();
+  std::filesystem::copy_file(folder_ / "stations/bc/model.ply", mesh,
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_THAT(runWhs(arguments, 3).err,
+              HasSubstr("r.sqlite: run of os-000038: the image, mask, mesh, camera, seed or truth "
+                        "of its case has changed since"));
+  EXPECT_THAT(runWhs({"new", "--results", results_, "--out", folder_ / "q.boresight.json"}, 3).err,
+              HasSubstr("has changed since"));
+}
+
 TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
   const Arguments arguments =
       evaluateArguments(dataset_, with({"--reseed", "5", "--jobs", "2"}, kQuick));
@@ -201,7 +218,7 @@ TEST_F(WhsTables, MakesTablesAndFigures) {
                     HasSubstr("iterations mean,"), Not(HasSubstr("bc"))));
   EXPECT_THAT(tables({"--table", "errors", "--demonstrate", "95"}),
               AllOf(HasSubstr("at least"), HasSubstr("Success rate that the runs demonstrate"),
-                    HasSubstr("runs missing")));
+                    HasSubstr("images missing")));
   folder_.write("counts.json",
                 R"({"format": "boresight-instructions", "version": 1, "runs": [{"method": "whs",
                 "station": "bc", "case": "bc-1", "initialization": 0, "search": 0, "rendering": 0,
@@ -209,6 +226,8 @@ TEST_F(WhsTables, MakesTablesAndFigures) {
   EXPECT_THAT(tables({"--table", "errors", "--paper", "--instructions", file("counts.json")}),
               AllOf(HasSubstr("Minutes at 200 MHz"), HasSubstr("1.000"), HasSubstr("21.330")));
   EXPECT_THAT(tables({"--format", "latex"}), HasSubstr("\\begin{tabular}"));
+  EXPECT_THAT(runWhs({"tables", file("good.sqlite"), "--figures", file("t.csv")}, 3).err,
+              HasSubstr("t.csv: it is no folder"));
 }
 
 TEST_F(WhsTables, ComparesTwoResultsRunByRun) {

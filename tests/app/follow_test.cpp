@@ -89,7 +89,7 @@ TEST_F(WhsFollow, InterruptedSequence_KeepsItsFramesAndContinues) {
   const Arguments arguments = followArguments(folder_ / "long");
   const EndedWhs ended = endWhsAfter(arguments, SIGINT, results_, 3);
   EXPECT_TRUE(WIFEXITED(ended.status));
-  EXPECT_EQ(WEXITSTATUS(ended.status), 1);
+  EXPECT_EQ(WEXITSTATUS(ended.status), 128 + SIGINT);
   EXPECT_GE(ended.held, 3);
   EXPECT_LT(ended.held, kLong);
   EXPECT_EQ(lines().size(), static_cast<std::size_t>(ended.held));

@@ -18,6 +18,9 @@ namespace boresight::test {
 
 using Arguments = std::vector<std::string>;
 
+/// Programs that tests run keep no log in the user's home.
+inline const int kNoLog = ::setenv("XDG_STATE_HOME", "/dev/null", 1);
+
 /// How a program ended and what it said.
 struct ProgramRun {
   int exit_code = -1;  ///< -1 when it did not end by itself

@@ -61,6 +61,20 @@ TEST(WhsRun, EndEffectorAndRequirementAreStatedAsAnEdit) {
   runWhs({"run", file, "--again", session.runs[0].digest, "--requirement", "1"}, 2);
 }
 
+TEST(WhsRun, RepeatedRunWithAnotherDigest_IsDifferent) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder, true);
+  const std::string id = sessions::readSessionFile(file).session.cases[0]->id;
+  runWhs({"run", file, "--case", id, "--requirement", "1", "1", "1"}, 0);
+  Session session = sessions::readSessionFile(file).session;
+  std::string& digest = session.runs[0].digest;
+  runWhs({"run", file, "--again", digest}, 0);
+  digest.front() = digest.front() == 'a' ? 'b' : 'a';
+  sessions::writeSessionFile(file, session);
+  EXPECT_THAT(runWhs({"run", file, "--again", digest}, 6).out,
+              HasSubstr("NOT the same as recorded"));
+}
+
 /// The traces in a session's folder of runs.
 int storedTraces(const std::filesystem::path& session_file) {
   std::error_code none_yet;

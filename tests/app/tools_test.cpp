@@ -27,6 +27,42 @@ TEST(Whs, EveryCommandKnowsTheVersion) {
     EXPECT_THAT(runWhs(arguments, 0).out, HasSubstr("whs "));
 }
 
+/// The state folder of whs while this object exists.
+class StateFolder {
+ public:
+  explicit StateFolder(const std::string& folder) { ::setenv("XDG_STATE_HOME", folder.c_str(), 1); }
+  ~StateFolder() { ::setenv("XDG_STATE_HOME", "/dev/null", 1); }
+};
+
+TEST(WhsLog, NamesRunsInputsFilesAndErrors) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  const StateFolder state(folder / "state");
+  const std::string digest = digestOf(runWhs({"run", file}, 0));
+  runWhs({"run", folder / "none.boresight.json"}, 3);
+  const std::string log = folder.read("state/boresight/boresight.log");
+  EXPECT_THAT(log,
+              AllOf(HasSubstr(" begins: "), HasSubstr("s.boresight.lock: locked"),
+                    HasSubstr("case os-000038: inputs SHA-256 "), HasSubstr("model.ply, SHA-256 "),
+                    HasSubstr("info run begins: version "), HasSubstr("info run ends: converged, "),
+                    HasSubstr(digest), HasSubstr("s.boresight.json: written, ")));
+  EXPECT_THAT(log, AllOf(HasSubstr("error " + (folder / "none.boresight.json").string()),
+                         HasSubstr("whs ends with exit status 3")));
+}
+
+TEST(WhsLog, OffOrWithoutAFolderToWrite_ChangesNothing) {
+  const TemporaryFolder folder;
+  {
+    const StateFolder state(folder / "state");
+    runWhs({"options", "--log-level", "off"}, 0);
+    runWhs({"--log-level", "off", "options"}, 0);
+    runWhs({"--help"}, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "state"));
+  }
+  const StateFolder state("/proc/nowhere");
+  EXPECT_EQ(runWhs({"options"}, 0).err, "");
+}
+
 TEST(WhsOptions, ListsEveryOptionWithRangeAndMeaning) {
   const std::string out = runWhs({"options"}, 0).out;
   const LocalizerOptions options;

@@ -159,6 +159,25 @@ class Module(unittest.TestCase):
             again = boresight.localize(session.case(self.case.id))
             self.assertEqual(again.digest, self.run_.digest)
 
+    def test_case_of_a_session_runs_with_its_options(self):
+        with tempfile.TemporaryDirectory() as place:
+            file = Path(place) / "s.boresight.json"
+            boresight.new_session(file, [self.case])
+            text = json.loads(file.read_text())
+            text["options"] = {"loop.max_iterations": 1}
+            file.write_text(json.dumps(text))
+            case = boresight.read_session(file).case(self.case.id)
+            few = boresight.localize(self.case, options={"loop.max_iterations": 1})
+            self.assertEqual(boresight.localize(case).digest, few.digest)
+            self.assertEqual(boresight.localize(case, profile="default").digest,
+                             self.run_.digest)
+
+    def test_new_session_keeps_cases_of_one_name(self):
+        with tempfile.TemporaryDirectory() as place:
+            session = boresight.new_session(Path(place) / "s.boresight.json",
+                                            [self.case, self.case])
+            self.assertEqual(len(set(session.case_ids)), 2)
+
 
 class Notebook(unittest.TestCase):
     def test_notebook_draws_its_figure(self):

@@ -22,6 +22,7 @@ const std::vector<std::vector<std::string>> kFloors = {
     {"core"},
     {"sessions"},  // version.h
     {"sessions/text"},
+    {"sessions/log"},
     {"sessions/io/files"},
     {"sessions/io/json"},
     {"sessions/io/cameras"},

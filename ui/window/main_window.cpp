@@ -17,6 +17,7 @@
 #include "ui/window/annotation_files.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/job_controller.h"
+#include "ui/window/log_hint.h"
 #include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
@@ -185,6 +186,7 @@ void MainWindow::showMessage(const QString& message) {
   if (quiet_) return;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), message, QMessageBox::Ok, this);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  noteInLog(box);
   box.exec();
 }
 

@@ -22,6 +22,7 @@
 #include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/change_input.h"
+#include "ui/window/log_hint.h"
 
 namespace boresight::ui {
 
@@ -417,6 +418,7 @@ void SessionFiles::offerSavingElsewhere(const QString& reason) {
   box.setInformativeText(
       tr("The file keeps its last saved state; all changes are still in this window. Free space or "
          "allow writing, or save the session elsewhere."));
+  noteInLog(box);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   box.addButton(QMessageBox::Close);
   box.exec();
@@ -430,6 +432,7 @@ bool SessionFiles::mayLoseRuns() {
                   tr("No space for runs of %1; they exist only in this window.")
                       .arg(runs.join(QStringLiteral(", "))),
                   QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  noteInLog(box);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   const int answer = box.exec();
   if (box.clickedButton() == elsewhere && saveAs()) parts_.cases.finishStoring();

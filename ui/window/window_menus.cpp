@@ -33,6 +33,7 @@
 #include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/change_input.h"
+#include "ui/window/log_hint.h"
 #include "ui/window/sequence_dialog.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
@@ -374,8 +375,8 @@ void WindowMenus::connectHelp() {
 void WindowMenus::showAbout() {
   QMessageBox::about(&window_, tr("Boresight"),
                      tr("<b>Boresight %1</b><p>Localization of a station in one image by salient "
-                        "edges and Weighted Hamming Similarity.</p>")
-                         .arg(QString::fromUtf8(sessions::kVersion)));
+                        "edges and Weighted Hamming Similarity.</p><p>%2</p>")
+                         .arg(QString::fromUtf8(sessions::kVersion), logHint().toHtmlEscaped()));
 }
 
 void WindowMenus::undo() {

@@ -10,8 +10,10 @@
 #include "sessions/io/cameras/camera_field.h"
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/io/images/labels/image_label.h"
+#include "sessions/io/images/labels/label_files.h"
 #include "sessions/io/json/json_fields.h"
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/text/units.h"
@@ -402,6 +404,13 @@ std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& datas
   if (!dataset_case.ignore) return std::nullopt;
   const Camera& camera = dataset.cameraOf(dataset_case);
   return readIgnoreMask(*dataset_case.ignore, camera.width, camera.height);
+}
+
+std::string inputSha256(const std::filesystem::path& file) {
+  constexpr std::size_t kMaxInputBytes = 4096 * kMegabyte;
+  if (knownMeshFormat(file)) return readMeshFiles(file).sha256;
+  if (const auto label = labelFileOf(file)) return readLabelFiles(*label).sha256;
+  return sha256Text(readFileBytes(file, kMaxInputBytes));
 }
 
 }  // namespace boresight::sessions

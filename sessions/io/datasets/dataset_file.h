@@ -127,6 +127,10 @@ Dataset readDataset(const std::filesystem::path& file);
 /// long run starts.
 void requireFiles(const Dataset& dataset);
 
+/// SHA-256 of a file that a dataset or session names: of its bytes; of a glTF mesh with its
+/// buffers, of an image with its label where the label is another file. InputError.
+std::string inputSha256(const std::filesystem::path& file);
+
 Requirement readRequirement(const JsonReader& json);
 nlohmann::ordered_json toJson(const Requirement& requirement);
 

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sessions/io/files/errors.h"
+#include "sessions/log/program_log.h"
 #include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
@@ -165,6 +166,14 @@ Target targetOf(const fs::path& file, FileUse use) {
   return target;
 }
 
+void logWritten(const fs::path& target) {
+  logEvent(LogLevel::kInfo, [&target] {
+    std::error_code folder;
+    const std::uintmax_t bytes = fs::file_size(target, folder);
+    return target.string() + ": written" + (folder ? "" : ", " + std::to_string(bytes) + " B");
+  });
+}
+
 }  // namespace
 
 void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
@@ -186,6 +195,7 @@ void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> byt
   temporary.renameTo(target.file);
   syncFolder(folderOf(target.file));
   noteOutput(target.file, use);
+  logWritten(target.file);
 }
 
 void writeFileAtomically(const fs::path& file, std::string_view text, FileUse use) {
@@ -205,6 +215,7 @@ void moveIntoPlace(const fs::path& finished, const fs::path& file, FileUse use) 
   if (::rename(finished.c_str(), target.c_str()) != 0) fail(file, errno);
   syncFolder(folderOf(target));
   noteOutput(target, use);
+  logWritten(target);
 }
 
 void requireWritable(const fs::path& file, FileUse use) {

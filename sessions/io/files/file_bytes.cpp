@@ -15,6 +15,7 @@
 
 #include "core/base/digest.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/log/program_log.h"
 
 namespace boresight::sessions {
 namespace {
@@ -121,6 +122,7 @@ class RegularFile {
 void noteInput(const fs::path& file, FileUse use) {
   const auto identity = identityOf(file);
   if (!identity || use == FileUse::kFree) return;
+  logEvent(LogLevel::kDebug, [&file] { return file.string() + ": read"; });
   const std::lock_guard lock(inputs().mutex);
   Input* known = inputs().find(*identity);
   if (known == nullptr)

@@ -18,7 +18,7 @@
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
-
+#include "sessions/log/program_log.h"
 #include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
@@ -123,8 +123,11 @@ bool isLocked(const fs::path& lock_file) {
 FileLock::FileLock(const fs::path& lock_file) : file_(lock_file) {
   // The holder may remove the file between our open and our flock; then the name is tried again.
   constexpr int kAttempts = 100;
-  for (int i = 0; i < kAttempts; ++i)
-    if (take()) return;
+  for (int i = 0; i < kAttempts; ++i) {
+    if (!take()) continue;
+    log();
+    return;
+  }
   throw OutputError(file_, "other programs take the lock repeatedly; try again");
 }
 
@@ -158,10 +161,19 @@ bool FileLock::take() {
   return true;  // neither flock nor a lock file: not held
 }
 
+void FileLock::log() const {
+  logEvent(LogLevel::kInfo, [this] {
+    const std::string text = file_.string() + ": ";
+    if (!held()) return text + "held by " + (other_ ? other_->text() : "another program");
+    return text + "locked" + (stale_ ? "; it was left by " + stale_->text() : std::string());
+  });
+}
+
 FileLock::~FileLock() {
   if (!held()) return;
   ::unlink(file_.c_str());
   ::close(descriptor_);
+  logEvent(LogLevel::kInfo, [this] { return file_.string() + ": released"; });
 }
 
 }  // namespace boresight::sessions

@@ -40,6 +40,7 @@ class FileLock {
 
  private:
   bool take();
+  void log() const;
 
   std::filesystem::path file_;
   int descriptor_ = -1;

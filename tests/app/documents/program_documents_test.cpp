@@ -113,6 +113,23 @@ TEST(DesktopProgram, SaysItsVersionAndItsOptionsWithoutADisplay) {
     EXPECT_NE(page.find("| `" + std::string(option) + "` |"), std::string::npos) << page;
   EXPECT_EQ(runProgram(program, {"--documents", "/proc/nowhere"}).errorLines(), 1);
 }
+
+TEST(DesktopProgram, DisplayThatDoesNotAnswer_IsOneSentence) {
+  const TemporaryFolder folder;
+  const std::string runtime = "XDG_RUNTIME_DIR=" + folder.path().string();
+  for (const std::string& display :
+       {std::string("-u DISPLAY"), std::string("DISPLAY=:91"),
+        std::string("DISPLAY=localhost:10.0"), std::string("QT_QPA_PLATFORM=wayland"),
+        std::string("QT_QPA_PLATFORM='wayland;xcb'")}) {
+    const std::string unset = display.starts_with("DISPLAY") ? "" : "-u DISPLAY ";
+    const ProgramRun run = runProgram(
+        "env -u QT_QPA_PLATFORM " + unset + display + " " + runtime + " " BORESIGHT_DESKTOP_PROGRAM,
+        {"/nowhere.boresight.json"});
+    EXPECT_EQ(run.exit_code, 3) << display << run.err;
+    EXPECT_EQ(run.err, "boresight: there is no display: connect with ssh -X, or use whs\n")
+        << display;
+  }
+}
 #endif
 
 }  // namespace

@@ -230,6 +230,27 @@ TEST(RunBatch, SaysWhatEachStepDid) {
   EXPECT_TRUE(brief.steps.front().details.empty());
 }
 
+TEST(RunBatch, StepsOfASymmetricStation_AreMeasuredToTheNearestEquivalentTruth) {
+  Dataset dataset = exampleDataset();
+  Pose half_turn;
+  half_turn.rotation = Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0);
+  dataset.stations.at("os").symmetries.discrete = {half_turn};
+  BatchOptions options = quick();
+  options.stations = {"os"};
+  const RunResult plain = runBatch(dataset, options, {}).front();
+  for (Case& dataset_case : dataset.cases)
+    *dataset_case.truth_camera_from_station = *dataset_case.truth_camera_from_station * half_turn;
+  const RunResult turned = runBatch(dataset, options, {}).front();
+  ASSERT_EQ(turned.digest, plain.digest);
+  ASSERT_FALSE(turned.steps.empty());
+  for (std::size_t i = 0; i < turned.steps.size(); ++i) {
+    const PoseError& error = turned.steps[i].error.value();
+    EXPECT_NEAR(error.lateral_mm, plain.steps[i].error->lateral_mm, 1e-6);
+    EXPECT_NEAR(error.projection_px.value(), plain.steps[i].error->projection_px.value(), 1e-6);
+    EXPECT_LT(error.lateral_mm, turned.seed_error->lateral_mm);
+  }
+}
+
 TEST(PlanBatch, PutsEveryCaseInExactlyOneShardWithAllItsSeeds) {
   Dataset dataset = exampleDataset();
   const Case first = dataset.cases.front();

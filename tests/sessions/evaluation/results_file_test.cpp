@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/results_file.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <limits>
 #include <memory>
 
@@ -45,6 +48,7 @@ RunResult sampleRun(const std::string& case_id = "bc-1", std::int64_t dataset_in
   run.requirement.emplace().normal_mm = 0.4;
   run.seconds.matching = 1.5;
   run.digest = "abc";
+  run.inputs_sha256 = "i1";
   return run;
 }
 
@@ -180,9 +184,9 @@ TEST_F(ResultsFile, GoesOnWithoutDoingAnythingTwice) {
   ResultsWriter writer(file_, sampleDataset());
   writer.admit(sampleMethod("whs"));
   writer.begin(BatchRun{});
-  EXPECT_TRUE(writer.has("whs", "bc-1", 0));
-  EXPECT_FALSE(writer.has("whs", "bc-1", 1));
-  EXPECT_FALSE(writer.has("ncc", "bc-1", 0));
+  EXPECT_EQ(writer.inputsOf("whs", "bc-1", 0), "i1");
+  EXPECT_FALSE(writer.inputsOf("whs", "bc-1", 1));
+  EXPECT_FALSE(writer.inputsOf("ncc", "bc-1", 0));
   writer.add(sampleRun("bc-1", 0, 0));
   writer.add(sampleRun("bc-1", 0, 1));
   EXPECT_EQ(query(file_, "SELECT reseed, batch_run FROM run ORDER BY id"), "0|1|1|2|");
@@ -200,7 +204,7 @@ TEST_F(ResultsFile, TriesRefusedInputsAgain) {
   RunResult bad = sampleRun("bc-1", 0, 0);
   bad.status = "input_error";
   write({bad});
-  EXPECT_FALSE(ResultsWriter(file_, sampleDataset()).has("whs", "bc-1", 0));
+  EXPECT_FALSE(ResultsWriter(file_, sampleDataset()).inputsOf("whs", "bc-1", 0));
   write({sampleRun("bc-1", 0, 0)});
   EXPECT_EQ(query(file_, "SELECT status FROM run; SELECT count(*) FROM tag"), "converged|2|");
 }
@@ -267,6 +271,74 @@ TEST_F(ResultsFile, ChangedByAnotherProgram_IsRefusedByReadersAndWriters) {
   EXPECT_THAT(readRefusal(), HasSubstr("it lacks the index \"run_order\""));
 }
 
+/// Makes a results file one of version 5.
+void makeVersion5(const std::filesystem::path& file) {
+  query(file,
+        "ALTER TABLE run DROP COLUMN inputs_sha256; ALTER TABLE iteration DROP COLUMN "
+        "projection_px; PRAGMA user_version = 5");
+}
+
+TEST_F(ResultsFile, OfTheVersionBefore_IsReadButNotContinued) {
+  write({sampleRun()});
+  makeVersion5(file_);
+  const Results results = readResults(file_);
+  ASSERT_EQ(results.runs.size(), 1u);
+  EXPECT_EQ(results.runs[0].digest, "abc");
+  EXPECT_EQ(results.runs[0].inputs_sha256, "");
+  EXPECT_EQ(results.facts.format_version, 5);
+  EXPECT_THAT(refusal(), HasSubstr("version 5, which is read but not continued"));
+  query(file_, "PRAGMA user_version = 4");
+  EXPECT_THAT(readRefusal(), HasSubstr("version 4, this program reads the versions 5 to 6"));
+}
+
+/// What readResults throws, or the number of runs, by a user who may read the folder only.
+std::string readByAnotherUser(const test::TemporaryFolder& folder,
+                              const std::filesystem::path& file) {
+  int ends[2] = {};
+  if (::pipe(ends) != 0) return "no pipe";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    std::string text = "no right to become another user";
+    if (::setresuid(kNobody, kNobody, kNobody) == 0) {
+      std::size_t runs = 0;
+      text = folder.message([&] { runs = readResults(file).runs.size(); });
+      if (text == "(nothing)") text = std::to_string(runs) + " runs";
+    }
+    (void)!::write(ends[1], text.data(), text.size());
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  std::string text(512, ' ');
+  const ssize_t count = ::read(ends[0], text.data(), text.size());
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return text;
+}
+
+TEST_F(ResultsFile, InAFolderThatCannotBeWritten_IsReadWhereItIsComplete) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs the right to become another user";
+  std::filesystem::permissions(folder_.path(), std::filesystem::perms(0555));
+  write({sampleRun()});
+  EXPECT_EQ(readByAnotherUser(folder_, file_), "1 runs");
+  query(file_, "PRAGMA journal_mode = wal");
+  std::filesystem::remove(folder_ / "r.sqlite-wal");
+  EXPECT_EQ(readByAnotherUser(folder_, file_), "1 runs") << "no changes wait in a log";
+  folder_.write("r.sqlite-wal", "changes");
+  EXPECT_THAT(readByAnotherUser(folder_, file_),
+              HasSubstr("r.sqlite: its last changes are still in r.sqlite-wal, and its folder "
+                        "cannot be written"));
+}
+
+TEST_F(ResultsFile, OfASequenceThatHasGrown_StatesTheNewCount) {
+  write({sampleRun()});
+  DatasetFacts grown = sampleDataset();
+  grown.cases = 9;
+  write({}, "r.sqlite", sampleMethod("whs"), grown);
+  EXPECT_EQ(readResultsFacts(file_).dataset.cases, 9);
+}
+
 TEST_F(ResultsFile, DisablesTriggersAndViewsOfTheConnection) {
   SqlDatabase database(file_, SqlAccess::kWrite);
   database.execute("CREATE TABLE a (x); CREATE VIEW b AS SELECT 1 AS x");
@@ -283,7 +355,7 @@ class MergeResults : public ResultsFile {
   MergeCounts merge(const std::vector<std::string>& names) const {
     std::vector<std::filesystem::path> files;
     for (const std::string& name : names) files.push_back(folder_ / name);
-    return mergeResults(folder_ / "out", files);
+    return mergeResults(folder_ / "out", files).value();
   }
   std::string mergeRefusal(const std::vector<std::string>& names) const {
     return folder_.message([&] { (void)merge(names); });
@@ -368,6 +440,31 @@ TEST_F(MergeResults, RefusesOtherOptionsDatasetsAndFiles) {
   folder_.write("d", "no");
   EXPECT_THAT(mergeRefusal({"d"}), HasSubstr("d: "));
   EXPECT_THAT(mergeRefusal({"none"}), HasSubstr("none: there is no such file"));
+}
+
+TEST_F(MergeResults, EqualRunsOfOtherInputs_AreRefusedAndUnknownInputsAreNot) {
+  write({sampleRun("bc-1", 0, 0)}, "a");
+  RunResult other = sampleRun("bc-1", 0, 0);
+  other.inputs_sha256 = "i2";
+  write({other, sampleRun("os-2", 1, 0)}, "b");
+  EXPECT_THAT(mergeRefusal({"a", "b"}), HasSubstr("b: run of bc-1: it has other inputs"));
+  makeVersion5(folder_ / "b");
+  EXPECT_EQ(merge({"a", "b"}).equal, 1);
+  const Results results = readResults(folder_ / "out");
+  EXPECT_EQ(results.facts.format_version, kResultsVersion);
+  EXPECT_EQ(results.runs[0].inputs_sha256, "i1");
+  EXPECT_EQ(results.runs[1].inputs_sha256, "");
+}
+
+TEST_F(MergeResults, AfterAStop_OutIsAsItWasAndNothingIsLeft) {
+  write({sampleRun("bc-1", 0, 0)}, "a");
+  write({sampleRun("os-2", 1, 0)}, "out");
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(mergeResults(folder_ / "out", {folder_ / "a"}, stop.get_token()));
+  EXPECT_EQ(readResults(folder_ / "out").runs.size(), 1u);
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_THAT(entry.path().filename(), testing::AnyOf("a", "a.lock", "out", "out.lock"));
 }
 
 TEST_F(MergeResults, FileThatIsBeingWritten_IsRefusedAndKept) {

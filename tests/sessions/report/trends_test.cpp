@@ -69,8 +69,16 @@ TEST(Trends, PointOfASessionIsItsCorrection) {
   }
   EXPECT_THAT(trendCsv(points), HasSubstr("correction_x_mm,sigma_of_correction_x_mm"));
   EXPECT_THAT(trendTable(points), HasSubstr(id));
+  EXPECT_FALSE(points[0].checks_failed) << "no decision has judged checks";
   const auto pdf = trendPdf(points);
   EXPECT_EQ(std::string(pdf.begin(), pdf.begin() + 4), "%PDF");
+
+  SessionCase moved = *session.cases.front();
+  moved.camera_from_station_seed.translation_m.x() += 0.05;
+  remarks.clear();
+  EXPECT_THAT(trendOf(withCase(session, moved), file, remarks), testing::IsEmpty());
+  EXPECT_THAT(remarks,
+              ElementsAre(HasSubstr("have changed since its run"), HasSubstr("has no run")));
 }
 
 }  // namespace

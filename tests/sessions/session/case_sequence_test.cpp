@@ -62,6 +62,57 @@ TEST_F(CaseSequenceTest, OwnImageOfTheCase_MakesNoOtherSequence) {
   SequenceOrder other_motion = order();
   other_motion.motion.translation_m.setConstant(0.002);
   EXPECT_THROW((void)open(other_motion), OutputError);
+  SequenceOrder other_rule = order();
+  other_rule.session_case.image.eight_bit.levels = GrayLevels{60, 120};
+  EXPECT_THROW((void)open(other_rule), OutputError);
+  SequenceOrder other_end_effector = order();
+  other_end_effector.session_case.camera_from_end_effector = Pose();
+  EXPECT_THROW((void)open(other_end_effector), OutputError);
+}
+
+class ChangedSequence : public CaseSequenceTest {
+ protected:
+  ChangedSequence() {
+    for (int i = 0; i < 3; ++i) put(i, std::to_string(2 * i) + ".png");
+    order_ = order();
+    order_.images = frames_;
+    EXPECT_EQ(refusal(), "(nothing)");
+  }
+  /// Frame `i` of the approach by another name.
+  void put(int i, const std::string& name) const {
+    std::filesystem::create_directories(frames_);
+    std::filesystem::copy_file(test::approachFolder() / ("frames/" + std::to_string(i) + ".png"),
+                               frames_ / name, std::filesystem::copy_options::overwrite_existing);
+  }
+  std::string refusal() const {
+    return folder_.message([this] {
+      CaseSequence sequence = open(order_);
+      while (sequence.next()) {
+      }
+    });
+  }
+  const std::filesystem::path frames_ = folder_ / "frames";
+  SequenceOrder order_;
+};
+
+TEST_F(ChangedSequence, FrameWithOtherPixels_IsRefused) {
+  put(5, "2.png");
+  EXPECT_THAT(refusal(), HasSubstr("frame 2.png has other pixels than when it was localized"));
+}
+
+TEST_F(ChangedSequence, FrameBetweenThoseThatAreDone_IsRefused) {
+  put(5, "1.png");
+  EXPECT_THAT(refusal(), HasSubstr("frame 1.png was added between frames that are done"));
+  std::filesystem::remove(frames_ / "0.png");
+  std::filesystem::remove(frames_ / "1.png");
+  EXPECT_THAT(refusal(), HasSubstr("frame 2.png was number 2 and is number 1 now"));
+}
+
+TEST_F(ChangedSequence, FrameAtTheEnd_IsLocalized) {
+  put(3, "6.png");
+  EXPECT_EQ(refusal(), "(nothing)");
+  EXPECT_EQ(readResults(folder_ / "r.sqlite").runs.size(), 4u);
+  EXPECT_EQ(readResultsFacts(folder_ / "r.sqlite").dataset.cases, 4);
 }
 
 TEST_F(CaseSequenceTest, StrokesOfTheMask_HideTheStationInEveryFrame) {

@@ -94,14 +94,31 @@ TEST(MethodFigures, PosesFoundWithAWrongMesh_CountAsNoSuccessAnywhere) {
 
 TEST(MethodFigures, StateBoundsOfClopperAndPearson) {
   std::vector<RunResult> runs;
-  for (int i = 0; i < 59; ++i) runs.push_back(madeRun("bc-" + std::to_string(i % 7), "whs"));
+  for (int i = 0; i < 59; ++i) runs.push_back(madeRun("bc-" + std::to_string(i), "whs"));
   const MethodFigures figures = methodFigures(runs).back();
-  EXPECT_EQ(figures.cases, 7);
-  // 59 runs without a failure demonstrate 95 %: 0.05^(1 / 59) = 0.9505.
+  // 59 images without a failure demonstrate 95 %: 0.05^(1 / 59) = 0.9505.
   EXPECT_NEAR(*figures.completed.leastPercent(), 95.05, 0.01);
   EXPECT_NEAR(*figures.success.leastPercent(), 95.05, 0.01);
   EXPECT_NEAR(*figures.false_positives.mostPercent(), 4.95, 0.01);
   EXPECT_DOUBLE_EQ(*figures.completed.mostPercent(), 100.0);
+}
+
+TEST(MethodFigures, RunsFromSeveralSeedsOfAnImage_AreOneTrialForTheBounds) {
+  std::vector<RunResult> runs;
+  for (int i = 0; i < 590; ++i) {
+    runs.push_back(madeRun("bc-" + std::to_string(i % 59), "whs"));
+    runs.back().reseed = i / 59;
+  }
+  EXPECT_NEAR(*methodFigures(runs).back().success.leastPercent(), 95.05, 0.01);
+  runs.back() = madeRun("bc-58", "whs", true, 9.0);  // one wrong pose of ten on the last image
+  runs.back().reseed = 9;
+  const MethodFigures figures = methodFigures(runs).back();
+  EXPECT_EQ(figures.success.count, 589);
+  EXPECT_EQ(figures.success.whole_images, 58);
+  EXPECT_EQ(figures.false_positives.touched_images, 1);
+  // scipy.stats.beta.ppf(0.05, 58, 2) and its complement.
+  EXPECT_NEAR(*figures.success.leastPercent(), 92.21, 0.01);
+  EXPECT_NEAR(*figures.false_positives.mostPercent(), 7.79, 0.01);
 }
 
 TEST(MethodFigures, CountRunsAtTheLimitOfIterationsBothWays) {
@@ -232,6 +249,14 @@ TEST(StrataTable, CountsRunsByTagAndByDistance) {
                          HasSubstr("hard,dusty,1,1,100,"), HasSubstr("hard,none,5,5,60,"),
                          HasSubstr("distance,0.350 to 0.360 m,2,2,100,"),
                          HasSubstr("distance,0.500 to 0.510 m,2,2,50,"), Not(HasSubstr("sleeve"))));
+}
+
+TEST(StrataTable, RunWithTwoTagsOfAKind_IsInBothStrata) {
+  const std::string csv = test::csvOf(strataTable(
+      std::vector<RunResult>{taggedRun("bc-1", true, {"hard_dusty", "hard_shadow"}, 0.4),
+                             taggedRun("bc-2", false, {"hard_dusty"}, 0.4)}));
+  EXPECT_THAT(csv, AllOf(HasSubstr("hard,dusty,2,2,50,"), HasSubstr("hard,shadow,1,1,100,"),
+                         Not(HasSubstr("hard,none"))));
 }
 
 TEST(StrataTable, KeepsStationsAndMethodsApart) {

@@ -18,10 +18,12 @@ class ReadResultsSet : public testing::Test {
  protected:
   std::filesystem::path write(const std::string& name, const std::vector<RunResult>& runs,
                               const std::string& profile = "default",
-                              const std::string& dataset = "d") const {
-    ResultsWriter writer(folder_ / name, {"/data/dataset.json", dataset, 2, "1"});
+                              const std::string& dataset = "d",
+                              const std::string& version = "1") const {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    ResultsWriter writer(folder_ / name, {"/data/dataset.json", dataset, 2, version});
     MethodFacts facts;
-    facts.profile = profile;
+    facts.profile = profile.substr(0, profile.find(' '));
     facts.options_sha256 = profile;
     for (const RunResult& run : runs) {
       facts.method = run.method;
@@ -54,6 +56,18 @@ TEST_F(ReadResultsSet, CountsNoRunTwiceAndNamesVariantsOfAMethodApart) {
   EXPECT_THAT(readResultsSet({a, paper}).methodNames(), ElementsAre("whs default", "whs paper"));
   const auto c = write("c", run, "default", "e");
   EXPECT_EQ(readResultsSet({a, c}).runs.size(), 2u) << "the case of another dataset is another";
+}
+
+TEST_F(ReadResultsSet, VariantsInFilesOfOneName_HaveRowsOfTheirOwn) {
+  const std::vector<RunResult> run = {madeRun("bc-1", "whs")};
+  const auto a = write("a/res.sqlite", run, "default pnp.seed=7");
+  const auto b = write("b/res.sqlite", run, "default max_iterations=3", "e");
+  EXPECT_THAT(readResultsSet({a, b}).methodNames(), ElementsAre("whs res", "whs res (2)"));
+  const auto older = write("older", run, "default", "d", "0.9.0");
+  const auto newer = write("newer", run, "default", "d", "1.0.0");
+  const ResultsSet set = readResultsSet({older, newer});
+  EXPECT_THAT(set.methodNames(), ElementsAre("whs 0.9.0", "whs 1.0.0"));
+  EXPECT_EQ(set.runs.size(), 2u);
 }
 
 TEST(MethodBefore, IsThePapersOrder) {
