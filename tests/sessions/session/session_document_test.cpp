@@ -214,6 +214,16 @@ TEST_F(SessionDocumentTest, SetsAJournalOfAnotherStateAsideUnlessItsEditsWereSav
   EXPECT_TRUE(std::filesystem::exists(folder / "s.journal.aside-1"));
 }
 
+TEST_F(SessionDocumentTest, KilledBeforeTheSavedFileHasItsName_OffersAllEdits) {
+  leaveUnsaved(3);
+  const std::string journal = folder.read("s.journal");
+  folder.write("s.journal", journal + savedLine(journal, "never written"));
+  const SessionDocument document = SessionDocument::open(file);
+  ASSERT_TRUE(document.recovery());
+  EXPECT_EQ(document.recovery()->edits.size(), 3u);
+  EXPECT_TRUE(document.recovery()->session == edited(first, 3));
+}
+
 TEST_F(SessionDocumentTest, TheSecondToOpenItOnlyReads) {
   SessionDocument writer = SessionDocument::create(file, first);
   writer.apply(edited(first, 1), "Edit");
