@@ -188,7 +188,7 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
   };
   Session next = session;
   next.cases.eraseIf([&](const auto& item) { return isOther(item->id); });
-  std::erase_if(next.annotations, [&](const auto& entry) { return isOther(entry.first); });
+  next.annotations.eraseIf([&](const auto& entry) { return isOther(entry.first); });
   next.runs.eraseIf([&](const RunRecord& run) {
     if (isOther(run.case_id)) return true;
     if (run.case_id == case_id) return run.digest != run_digest;

@@ -172,9 +172,9 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
 
 Session withRun(const Session& session, RunRecord run) {
   Session next = session;
-  next.runs.eraseIf([&run](const RunRecord& other) {
-    return other.case_id == run.case_id && other.digest == run.digest &&
-           other.inputs_sha256 == run.inputs_sha256 && other.options_sha256 == run.options_sha256;
+  next.runs.eraseIf(run.case_id, [&run](const RunRecord& other) {
+    return other.digest == run.digest && other.inputs_sha256 == run.inputs_sha256 &&
+           other.options_sha256 == run.options_sha256;
   });
   next.runs.push_back(std::move(run));
   return next;

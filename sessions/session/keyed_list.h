@@ -3,27 +3,43 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "sessions/session/block_map.h"
 
 namespace boresight::sessions {
 
-/// A list that finds the last element of a key, `KeyOf()(element)`, by an index: sessions hold tens
-/// of thousands of cases and runs, which are looked up by case. Otherwise like std::vector. After
-/// mutable access to elements find() searches the list, until the list is copied.
+/// A list that finds the elements of a key, `KeyOf()(element)`, by an index: sessions hold tens of
+/// thousands of cases and runs, which are looked up by case. Copies share what is the same in both,
+/// as those of BlockMap. Otherwise like std::vector, but a change makes references invalid. After
+/// access to elements that may be changed find() searches the list, until it is copied.
 template <class T, class KeyOf>
 class KeyedList {
+  /// Elements by a number that grows along the list and stays with the element.
+  using Values = BlockMap<std::uint64_t, T>;
+  /// Hash of the key and number of each element.
+  using Places = BlockMap<std::pair<std::size_t, std::uint64_t>, std::monostate>;
+
  public:
   using value_type = T;
+  using const_iterator = typename Values::ConstValueIterator;
+  using iterator = typename Values::ValueIterator;
 
   KeyedList() = default;
-  KeyedList(std::vector<T> values) : values_(std::move(values)) { index(); }  // NOLINT: a list
+  KeyedList(std::vector<T> values) {  // NOLINT: a list
+    for (T& value : values) push_back(std::move(value));
+  }
   KeyedList(const KeyedList& other)
       : values_(other.values_), places_(other.places_), indexed_(other.indexed_) {
-    if (!indexed_) index();
+    index();
   }
   KeyedList(KeyedList&&) noexcept = default;
   KeyedList& operator=(const KeyedList& other) { return *this = KeyedList(other); }
@@ -32,61 +48,160 @@ class KeyedList {
 
   std::size_t size() const { return values_.size(); }
   bool empty() const { return values_.empty(); }
-  const T& operator[](std::size_t i) const { return values_[i]; }
-  const T& front() const { return values_.front(); }
-  const T& back() const { return values_.back(); }
-  auto begin() const { return values_.begin(); }
-  auto end() const { return values_.end(); }
-  auto rbegin() const { return values_.rbegin(); }
-  auto rend() const { return values_.rend(); }
+  const T& operator[](std::size_t i) const { return values_.nth(i)->second; }
+  const T& front() const { return (*this)[0]; }
+  const T& back() const { return (*this)[size() - 1]; }
+  const_iterator begin() const { return values_.beginValues(); }
+  const_iterator end() const { return values_.endValues(); }
+  auto rbegin() const { return std::make_reverse_iterator(end()); }
+  auto rend() const { return std::make_reverse_iterator(begin()); }
 
-  /// Elements that may be changed.
+  /// Elements that may be changed: the list no longer shares them.
   ///@{
-  T& operator[](std::size_t i) { return changeable()[i]; }
-  T& front() { return changeable().front(); }
-  T& back() { return changeable().back(); }
-  auto begin() { return changeable().begin(); }
-  auto end() { return changeable().end(); }
+  T& operator[](std::size_t i) { return changeable().changeable(i); }
+  T& front() { return (*this)[0]; }
+  T& back() { return (*this)[size() - 1]; }
+  iterator begin() { return changeable().beginChangeable(); }
+  iterator end() { return changeable().endChangeable(); }
   ///@}
 
-  void push_back(T value) {
-    values_.push_back(std::move(value));
-    if (indexed_) enter(values_.size() - 1);
+  void push_back(T value) { putAt(empty() ? 0 : lastNumber() + 1, std::move(value)); }
+  /// Replaces the last element of the value's key, or appends the value.
+  void put(T value) {
+    index();
+    const auto found = lastPlace(KeyOf()(value));
+    if (found == places_.end()) return push_back(std::move(value));
+    values_.insert_or_assign(found->first.second, std::move(value));
+  }
+  /// Replaces the element at an index.
+  void replace(std::size_t i, T value) {
+    const std::uint64_t number = values_.nth(i)->first;
+    forget(number);
+    putAt(number, std::move(value));
+  }
+  void erase(std::size_t i) {
+    const std::uint64_t number = values_.nth(i)->first;
+    forget(number);
+    values_.erase(number);
+  }
+  /// Inserts before the element at an index, or at the end.
+  void insert(std::size_t i, T value) {
+    if (i == size()) return push_back(std::move(value));
+    const std::uint64_t after = values_.nth(i)->first;
+    const std::uint64_t least = i == 0 ? 0 : values_.nth(i - 1)->first + 1;
+    if (least < after) return putAt(least, std::move(value));
+    std::vector<T> values(std::as_const(*this).begin(), std::as_const(*this).end());
+    values.insert(values.begin() + static_cast<std::ptrdiff_t>(i), std::move(value));
+    *this = std::move(values);
   }
   void clear() { *this = KeyedList(); }
   template <class Predicate>
   void eraseIf(Predicate&& predicate) {
-    std::erase_if(values_, predicate);
+    std::vector<std::uint64_t> numbers;
+    for (const auto& [number, value] : values_)
+      if (predicate(value)) numbers.push_back(number);
+    if (numbers.size() == size()) return clear();
+    for (const std::uint64_t number : numbers) {
+      forget(number);
+      values_.erase(number);
+    }
+  }
+  /// Only among the elements of a key, which need no search.
+  template <class Predicate>
+  void eraseIf(const std::string& key, Predicate&& predicate) {
     index();
+    for (const std::uint64_t number : numbersOf(key)) {
+      if (!predicate(values_.at(number))) continue;
+      forget(number);
+      values_.erase(number);
+    }
   }
 
   /// The last element of a key, or nullptr.
   const T* find(const std::string& key) const {
-    if (indexed_) {
-      const auto place = places_.find(key);
-      return place == places_.end() ? nullptr : &values_[place->second];
+    if (!indexed_) {
+      const auto found =
+          std::find_if(rbegin(), rend(), [&key](const T& value) { return KeyOf()(value) == key; });
+      return found == rend() ? nullptr : &*found;
     }
-    const auto found = std::find_if(values_.rbegin(), values_.rend(),
-                                    [&key](const T& value) { return KeyOf()(value) == key; });
-    return found == values_.rend() ? nullptr : &*found;
+    const auto found = lastPlace(key);
+    return found == places_.end() ? nullptr : &values_.at(found->first.second);
+  }
+  /// All elements of a key, in their order.
+  std::vector<const T*> findAll(const std::string& key) const {
+    std::vector<const T*> found;
+    if (indexed_)
+      for (const std::uint64_t number : numbersOf(key)) found.push_back(&values_.at(number));
+    else
+      for (const T& value : *this)
+        if (KeyOf()(value) == key) found.push_back(&value);
+    return found;
   }
 
-  bool operator==(const KeyedList& other) const { return values_ == other.values_; }
+  bool operator==(const KeyedList& other) const {
+    return values_.equals(other.values_,
+                          [](const auto& a, const auto& b) { return a.second == b.second; });
+  }
+
+  /// How a list differs from another: `replace(i, new)`, `erase(i)` with indices of `before`, and
+  /// `insert(i, new)` with those of `after`, each in ascending order. Short for a list that was
+  /// copied from the other; correct for any two.
+  template <class Replace, class Erase, class Insert>
+  static void forEachDifference(const KeyedList& before, const KeyedList& after,
+                                const Replace& replace, const Erase& erase, const Insert& insert) {
+    Values::forEachDifference(before.values_, after.values_, [&](const auto* from, const auto* to) {
+      if (from != nullptr && to != nullptr)
+        replace(from->rank(), (*to)->second);
+      else if (from != nullptr)
+        erase(from->rank());
+      else
+        insert(to->rank(), (*to)->second);
+    });
+  }
 
  private:
-  std::vector<T>& changeable() {
+  static std::size_t hashOf(const std::string& key) { return std::hash<std::string>()(key); }
+  std::uint64_t lastNumber() const { return values_.nth(size() - 1)->first; }
+
+  Values& changeable() {
     indexed_ = false;
+    places_.clear();
     return values_;
   }
-  void enter(std::size_t i) { places_.insert_or_assign(KeyOf()(values_[i]), i); }
   void index() {
-    places_.clear();
-    for (std::size_t i = 0; i < values_.size(); ++i) enter(i);
+    if (indexed_) return;
+    for (const auto& [number, value] : values_)
+      places_.insert_or_assign({hashOf(KeyOf()(value)), number}, {});
     indexed_ = true;
   }
+  void putAt(std::uint64_t number, T value) {
+    if (indexed_) places_.insert_or_assign({hashOf(KeyOf()(value)), number}, {});
+    values_.insert_or_assign(number, std::move(value));
+  }
+  /// Removes an element from the index.
+  void forget(std::uint64_t number) {
+    if (indexed_) places_.erase({hashOf(KeyOf()(values_.at(number))), number});
+  }
+  /// Of the last element of a key.
+  auto lastPlace(const std::string& key) const {
+    const std::size_t hash = hashOf(key);
+    auto place = places_.lower_bound({hash, std::numeric_limits<std::uint64_t>::max()});
+    while (place != places_.begin() && (--place)->first.first == hash)
+      if (KeyOf()(values_.at(place->first.second)) == key) return place;
+    return places_.end();
+  }
+  /// Of all elements of a key.
+  std::vector<std::uint64_t> numbersOf(const std::string& key) const {
+    const std::size_t hash = hashOf(key);
+    std::vector<std::uint64_t> numbers;
+    for (auto place = places_.lower_bound({hash, 0});
+         place != places_.end() && place->first.first == hash; ++place)
+      if (KeyOf()(values_.at(place->first.second)) == key) numbers.push_back(place->first.second);
+    return numbers;
+  }
 
-  std::vector<T> values_;
-  std::unordered_map<std::string, std::size_t> places_;  ///< of the last element of each key
+  Values values_;
+  Places places_;
   bool indexed_ = true;
 };
 

@@ -2,6 +2,7 @@
 #include "sessions/session/session.h"
 
 #include <algorithm>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +19,7 @@ namespace {
 
 /// The value of a case, or nullptr.
 template <class Value>
-const Value* valueOf(const std::string& id, const std::map<std::string, Value>& values) {
+const Value* valueOf(const std::string& id, const BlockMap<std::string, Value>& values) {
   const auto found = values.find(id);
   return found == values.end() ? nullptr : &found->second;
 }
@@ -30,12 +31,48 @@ bool same(const Value* a, const Value* b) {
 
 /// Empty values are not kept.
 template <class Value>
-void put(const std::string& id, Value value, std::map<std::string, SharedValue<Value>>& values) {
+void put(const std::string& id, Value value, BlockMap<std::string, SharedValue<Value>>& values) {
   if (value == Value())
     values.erase(id);
   else
     values.insert_or_assign(id, std::move(value));
 }
+
+/// Ids of the cases of which something differs.
+class DifferingCases {
+ public:
+  DifferingCases(const Session& before, const Session& after) {
+    addOf(before.cases, after.cases);
+    addOf(before.decisions, after.decisions);
+    addKeysOf(before.annotations, after.annotations);
+    addKeysOf(before.rounds, after.rounds);
+  }
+  const std::set<std::string>& ids() const { return ids_; }
+
+ private:
+  template <class List>
+  void addOf(const List& before, const List& after) {
+    const auto left = [&](std::size_t i) { ids_.insert(CaseIdOf()(before[i])); };
+    const auto entered = [&](std::size_t, const auto& element) {
+      ids_.insert(CaseIdOf()(element));
+    };
+    List::forEachDifference(
+        before, after,
+        [&](std::size_t i, const auto& element) {
+          left(i);
+          entered(i, element);
+        },
+        left, entered);
+  }
+  template <class Map>
+  void addKeysOf(const Map& before, const Map& after) {
+    Map::forEachDifference(before, after, [this](const auto* from, const auto* to) {
+      ids_.insert(from ? (*from)->first : (*to)->first);
+    });
+  }
+
+  std::set<std::string> ids_;
+};
 
 }  // namespace
 
@@ -108,8 +145,8 @@ const Pose* judgingTruth(const SessionCase& session_case) {
 const RunRecord* findRun(const Session& session, const std::string& case_id,
                          const std::string& digest) {
   const RunRecord* found = nullptr;
-  for (const RunRecord& run : session.runs)
-    if (run.case_id == case_id && (digest.empty() || run.digest == digest)) found = &run;
+  for (const RunRecord* run : session.runs.findAll(case_id))
+    if (digest.empty() || run->digest == digest) found = run;
   return found;
 }
 
@@ -130,11 +167,7 @@ Session withChanged(const Session& session, const std::string& case_id,
 
 Session withCase(const Session& session, SessionCase changed) {
   Session next = session;
-  const auto found = std::ranges::find(next.cases, changed.id, CaseIdOf());
-  if (found != next.cases.end())
-    *found = std::move(changed);
-  else
-    next.cases.push_back(std::move(changed));
+  next.cases.put(std::move(changed));
   return next;
 }
 
@@ -147,11 +180,12 @@ std::string freeCaseId(const Session& session, const std::string& id) {
 
 Session withoutCase(const Session& session, const std::string& case_id) {
   Session next = session;
-  next.cases.eraseIf([&](const auto& item) { return item->id == case_id; });
+  const auto any = [](const auto& /*element*/) { return true; };
+  next.cases.eraseIf(case_id, any);
   next.annotations.erase(case_id);
   next.rounds.erase(case_id);
-  next.decisions.eraseIf([&](const Decision& decision) { return decision.case_id == case_id; });
-  next.runs.eraseIf([&](const RunRecord& run) { return run.case_id == case_id; });
+  next.decisions.eraseIf(case_id, any);
+  next.runs.eraseIf(case_id, any);
   if (next.view.case_id == case_id) next.view = {};
   return next;
 }
@@ -299,7 +333,10 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
 
 std::vector<std::string> changedCases(const Session& before, const Session& after) {
   std::vector<std::string> changed;
+  const DifferingCases differing(before, after);
+  if (differing.ids().empty()) return changed;
   for (const auto& session_case : after.cases) {
+    if (!differing.ids().contains(session_case->id)) continue;
     const SessionCase* former = before.findCase(session_case->id);
     const auto& id = session_case->id;
     const bool kept = former && *former == *session_case &&

@@ -23,6 +23,7 @@
 #include "sessions/io/images/image_file.h"
 #include "sessions/io/images/labels/image_label.h"
 #include "sessions/io/json/config_file.h"
+#include "sessions/session/block_map.h"
 #include "sessions/session/ignore_strokes.h"
 #include "sessions/session/keyed_list.h"
 #include "sessions/session/run_record.h"
@@ -159,13 +160,14 @@ struct CaseIdOf {
   const std::string& operator()(const RunRecord& run) const { return run.case_id; }
 };
 
+/// Copies share their cases, annotations, decisions and runs (KeyedList, BlockMap).
 struct Session {
   std::string profile = "default";
   OptionList options;  ///< differences from the profile, in alphabetical order
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
-  std::map<std::string, SharedValue<Annotations>> annotations;  ///< by case; no element is empty
+  BlockMap<std::string, SharedValue<Annotations>> annotations;  ///< by case; no element is empty
   /// Completed annotation rounds by case, in order of completion; no element is empty.
-  std::map<std::string, SharedValue<AnnotationRounds>> rounds;
+  BlockMap<std::string, SharedValue<AnnotationRounds>> rounds;
   bool robust_annotations = false;  ///< outliers among annotations get less weight
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made

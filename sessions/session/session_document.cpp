@@ -2,6 +2,7 @@
 #include "sessions/session/session_document.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -12,10 +13,14 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_reader.h"
+<<<<<<< HEAD
 #include "sessions/log/program_log.h"
+=======
+#include "sessions/io/json/json_writer.h"
+#include "sessions/session/session_change.h"
+>>>>>>> origin/g
 #include "sessions/session/session_file.h"
 #include "sessions/text/plain_text.h"
-#include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {
 namespace {
@@ -28,10 +33,24 @@ Session ordered(Session session) {
   return session;
 }
 
-/// Proves that the text of a session can be opened again and is then the same.
-void requireReadable(const Session& session, const fs::path& file, const std::string& text) {
-  if (!(readSession(JsonDocument(file, text).root()) == session))
-    throw std::logic_error("a written session differs when read back");
+std::logic_error differsWhenRead() {
+  return std::logic_error("a written session differs when read back");
+}
+
+/// The change as JSON. OutputError unless it is UTF-8; InputError and std::logic_error unless it
+/// gives the same session when it is read.
+std::string changeText(const Session& before, const Session& after, const fs::path& journal) {
+  std::string text;
+  try {
+    const nlohmann::ordered_json change = sessionChange(before, after, journal);
+    text = change.dump();
+    (void)prettyJson(change);  // throws for a number that is not finite
+  } catch (const nlohmann::json::exception&) {
+    throw OutputError(journal, "a name or comment in the session is not UTF-8 text");
+  }
+  const JsonDocument written(journal, text);
+  if (!(withChange(before, written.root()) == after)) throw differsWhenRead();
+  return text;
 }
 
 fs::path asideName(const fs::path& journal) {
@@ -57,25 +76,29 @@ void copyRuns(Session& session, const fs::path& to_session) {
   }
 }
 
-constexpr const char* kJournalFormat = "boresight-journal";
-constexpr int kJournalVersion = 1;
-
-Recovery readRecovery(const JsonReader& json) {
-  Recovery recovery;
-  recovery.base_sha256 = json.at("base_sha256").text();
-  recovery.time = json.at("time").text();
-  for (const JsonReader& edit : json.at("edits").elements()) recovery.edits.push_back(edit.text());
-  recovery.session = readSession(json.at("session"));
-  return recovery;
-}
-
 /// The session after an undo or redo to `target`. Runs and view state are not edits: they are kept
 /// from `current`, except for cases that only `target` has (its runs are used) or lacks (no runs).
 Session keepingRuns(const Session& target, const Session& current) {
   Session kept = target;
-  kept.runs.eraseIf([&](const RunRecord& run) { return current.findCase(run.case_id) != nullptr; });
-  for (const RunRecord& run : current.runs)
-    if (kept.findCase(run.case_id) != nullptr) kept.runs.push_back(run);
+  kept.runs = current.runs;
+  std::set<std::string> appeared;
+  const auto vanishes = [&](std::size_t i) {
+    const std::string& id = current.cases[i]->id;
+    if (target.findCase(id) == nullptr)
+      kept.runs.eraseIf(id, [](const RunRecord& /*run*/) { return true; });
+  };
+  const auto appears = [&](std::size_t /*i*/, const SharedValue<SessionCase>& session_case) {
+    if (current.findCase(session_case->id) == nullptr) appeared.insert(session_case->id);
+  };
+  decltype(kept.cases)::forEachDifference(
+      current.cases, target.cases,
+      [&](std::size_t i, const SharedValue<SessionCase>& session_case) {
+        vanishes(i);
+        appears(i, session_case);
+      },
+      vanishes, appears);
+  for (const std::string& id : appeared)
+    for (const RunRecord* run : target.runs.findAll(id)) kept.runs.push_back(*run);
   kept.view = current.view;
   if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
   return kept;
@@ -83,36 +106,20 @@ Session keepingRuns(const Session& target, const Session& current) {
 
 }  // namespace
 
-void writeJournal(const std::filesystem::path& file, const Journal& journal,
-                  const std::string& session_text) {
-  const nlohmann::ordered_json header = {{"format", kJournalFormat},
-                                         {"version", kJournalVersion},
-                                         {"base_sha256", journal.base_sha256},
-                                         {"time", journal.time},
-                                         {"edits", journal.edits}};
-  std::string text = header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  text.pop_back();  // the closing brace
-  writeFileAtomically(file, text + ",\n\"session\": " + session_text + "}\n", FileUse::kSession);
-}
-
-Recovery readJournal(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, 2 * kMaxJsonBytes, FileUse::kSession);
-  return JsonDocument(file, asText(bytes)).read(kJournalFormat, kJournalVersion, readRecovery);
-}
-
 SessionDocument::SessionDocument(const fs::path& file)
     : file_(fs::absolute(file).lexically_normal()) {}
 
 SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
   // No lock file without a session file.
-  (void)readFileBytes(document.file_, SIZE_MAX, FileUse::kSession);
+  (void)readBeginning(document.file_, 1);
   if (access == Access::kEdit)
     document.takeLock();
   else
     document.read_only_reason_ = "it was opened for reading only";
   SavedSession saved = readSessionFile(document.file_);
   document.file_sha256_ = saved.file_sha256;
+  document.file_bytes_ = saved.size_bytes;
   document.session_ = document.saved_ = std::move(saved.session);
   document.readJournalBeside();
   return document;
@@ -128,10 +135,14 @@ SessionDocument SessionDocument::create(const fs::path& file, const Session& ses
   document.takeLock();
   document.requireEditable();
   const Session wanted = ordered(session);
-  requireReadable(wanted, document.file_, sessionText(wanted, document.file_));
+  const std::string text = sessionFileText(wanted, document.file_);
+  const JsonDocument written(document.file_, text);
+  if (!(readSession(written.root()) == wanted)) throw differsWhenRead();
   if (fs::exists(journalFileOf(document.file_), error))
     document.setJournalAside("it belonged to a former session of this name");
-  document.file_sha256_ = writeSessionFile(document.file_, wanted);
+  writeFileAtomically(document.file_, text, FileUse::kSession);
+  document.file_sha256_ = sha256Text(text);
+  document.file_bytes_ = text.size();
   document.session_ = document.saved_ = wanted;
   return document;
 }
@@ -157,12 +168,179 @@ void SessionDocument::readJournalBeside() {
   if (!fs::exists(file, error)) return;
   if (lock_ && !lock_->held()) return;  // it is in use: its edits are not left over
   try {
-    Recovery left = readJournal(file);
-    // A program may end between saving the edits and removing the journal.
-    if (sha256Text(sessionText(left.session, file_)) == file_sha256_) {
-      if (!readOnly()) fs::remove(file, error);
-    } else if (left.base_sha256 == file_sha256_) {
+    Recovery left = readJournal(file, {saved_, file_sha256_, file_bytes_});
+    if (!left.damage.empty())
+      notice("the journal " + file.string() + " is damaged: " + left.damage + "; " +
+             countText(left.edits.size(), "edit") + " before it can be recovered");
+    if (left.edits.empty() && !left.damage.empty()) {
+      setJournalAside("no edit of it can be recovered");
+    } else if (!left.edits.empty()) {
       recovery_ = std::move(left);
+      logEvent(LogLevel::kInfo, [this] {
+        return file_.string() + ": " + countText(recovery_->edits.size(), "unsaved edit") +
+               " of an earlier program, last at " + recovery_->time;
+      });
+    } else if (!readOnly()) {
+      fs::remove(file, error);  // a program ended between saving the edits and removing it
+    }
+#include "sessions/session/session_file.h"
+#include "sessions/text/plain_text.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Options are kept in the order in which they are read back.
+Session ordered(Session session) {
+  std::ranges::stable_sort(session.options, {}, &OptionList::value_type::first);
+  return session;
+}
+
+std::logic_error differsWhenRead() {
+  return std::logic_error("a written session differs when read back");
+}
+
+/// The change as JSON. OutputError unless it is UTF-8; InputError and std::logic_error unless it
+/// gives the same session when it is read.
+std::string changeText(const Session& before, const Session& after, const fs::path& journal) {
+  std::string text;
+  try {
+    const nlohmann::ordered_json change = sessionChange(before, after, journal);
+    text = change.dump();
+    (void)prettyJson(change);  // throws for a number that is not finite
+  } catch (const nlohmann::json::exception&) {
+    throw OutputError(journal, "a name or comment in the session is not UTF-8 text");
+  }
+  const JsonDocument written(journal, text);
+  if (!(withChange(before, written.root()) == after)) throw differsWhenRead();
+  return text;
+}
+
+fs::path asideName(const fs::path& journal) {
+  for (int i = 1;; ++i) {
+    fs::path name = journal;
+    name += ".aside-" + std::to_string(i);
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(name, error))) return name;
+  }
+}
+
+/// Traces are immutable: a copy that is there already is right.
+void copyRuns(Session& session, const fs::path& to_session) {
+  std::error_code error;
+  if (!session.runs.empty()) fs::create_directories(runsFolderOf(to_session), error);
+  if (error) throw OutputError(runsFolderOf(to_session), error.message());
+  for (RunRecord& run : session.runs) {
+    const fs::path copy = runFileOf(to_session, run.digest);
+    if (!fs::exists(run.file, error)) continue;  // is reported by checkInputs
+    if (!fs::exists(copy, error))
+      writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX, FileUse::kRun), FileUse::kRun);
+    run.file = copy;
+  }
+}
+
+/// The session after an undo or redo to `target`. Runs and view state are not edits: they are kept
+/// from `current`, except for cases that only `target` has (its runs are used) or lacks (no runs).
+Session keepingRuns(const Session& target, const Session& current) {
+  Session kept = target;
+  kept.runs = current.runs;
+  std::set<std::string> appeared;
+  const auto vanishes = [&](std::size_t i) {
+    const std::string& id = current.cases[i]->id;
+    if (target.findCase(id) == nullptr)
+      kept.runs.eraseIf(id, [](const RunRecord& /*run*/) { return true; });
+  };
+  const auto appears = [&](std::size_t /*i*/, const SharedValue<SessionCase>& session_case) {
+    if (current.findCase(session_case->id) == nullptr) appeared.insert(session_case->id);
+  };
+  decltype(kept.cases)::forEachDifference(
+      current.cases, target.cases,
+      [&](std::size_t i, const SharedValue<SessionCase>& session_case) {
+        vanishes(i);
+        appears(i, session_case);
+      },
+      vanishes, appears);
+  for (const std::string& id : appeared)
+    for (const RunRecord* run : target.runs.findAll(id)) kept.runs.push_back(*run);
+  kept.view = current.view;
+  if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
+  return kept;
+}
+
+}  // namespace
+
+SessionDocument::SessionDocument(const fs::path& file)
+    : file_(fs::absolute(file).lexically_normal()) {}
+
+SessionDocument SessionDocument::open(const fs::path& file, Access access) {
+  SessionDocument document(file);
+  // No lock file without a session file.
+  (void)readBeginning(document.file_, 1);
+  if (access == Access::kEdit)
+    document.takeLock();
+  else
+    document.read_only_reason_ = "it was opened for reading only";
+  SavedSession saved = readSessionFile(document.file_);
+  document.file_sha256_ = saved.file_sha256;
+  document.file_bytes_ = saved.size_bytes;
+  document.session_ = document.saved_ = std::move(saved.session);
+  document.readJournalBeside();
+  return document;
+}
+
+SessionDocument SessionDocument::create(const fs::path& file, const Session& session) {
+  if (file.empty()) throw OutputError("(no name)", "a file name is empty");
+  SessionDocument document(file);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(document.file_, error)))
+    throw OutputError(file, "the file exists");
+  requireWritable(document.file_);
+  document.takeLock();
+  document.requireEditable();
+  const Session wanted = ordered(session);
+  const std::string text = sessionFileText(wanted, document.file_);
+  const JsonDocument written(document.file_, text);
+  if (!(readSession(written.root()) == wanted)) throw differsWhenRead();
+  if (fs::exists(journalFileOf(document.file_), error))
+    document.setJournalAside("it belonged to a former session of this name");
+  writeFileAtomically(document.file_, text, FileUse::kSession);
+  document.file_sha256_ = sha256Text(text);
+  document.file_bytes_ = text.size();
+  document.session_ = document.saved_ = wanted;
+  return document;
+}
+
+void SessionDocument::takeLock() {
+  try {
+    lock_ = std::make_unique<FileLock>(lockFileOf(file_));
+  } catch (const OutputError& error) {
+    read_only_reason_ = "nothing can be written next to it (" + error.reason() + ")";
+    return;
+  }
+  if (!lock_->held())
+    read_only_reason_ =
+        "it is open already: " +
+        (lock_->other() ? lock_->other()->text() : std::string("by another program"));
+  else if (lock_->stale())
+    notice("the last program did not close it: " + lock_->stale()->text());
+}
+
+void SessionDocument::readJournalBeside() {
+  const fs::path file = journalFileOf(file_);
+  std::error_code error;
+  if (!fs::exists(file, error)) return;
+  if (lock_ && !lock_->held()) return;  // it is in use: its edits are not left over
+  try {
+    Recovery left = readJournal(file, {saved_, file_sha256_, file_bytes_});
+    if (!left.damage.empty())
+      notices_.push_back("the journal " + file.string() + " is damaged: " + left.damage + "; " +
+                         countText(left.edits.size(), "edit") + " before it can be recovered");
+    if (left.edits.empty() && !left.damage.empty())
+      setJournalAside("no edit of it can be recovered");
+    else if (!left.edits.empty())
+      recovery_ = std::move(left);
+<<<<<<< HEAD
       logEvent(LogLevel::kInfo, [this] {
         return file_.string() + ": " + countText(recovery_->edits.size(), "unsaved edit") +
                " of an earlier program, last at " + recovery_->time;
@@ -170,9 +348,12 @@ void SessionDocument::readJournalBeside() {
     } else {
       setJournalAside("it belongs to another state of the file");
     }
+=======
+    else if (!readOnly())
+      fs::remove(file, error);  // a program ended between saving the edits and removing it
+>>>>>>> origin/g
   } catch (const InputError& wrong) {
-    setJournalAside("it is damaged, or from another version of the program (" + wrong.reason() +
-                    ")");
+    setJournalAside("it cannot be used: " + wrong.reason());
   }
 }
 
@@ -194,6 +375,14 @@ void SessionDocument::setJournalAside(const std::string& why) {
   notice("the journal was set aside as " + aside.string() + ": " + why);
 }
 
+void SessionDocument::keepDamagedJournal() {
+  const fs::path aside = asideName(journalFileOf(file_));
+  std::error_code error;
+  fs::copy_file(journalFileOf(file_), aside, error);
+  if (error) throw OutputError(aside, error.message());
+  notice("the damaged journal is kept as " + aside.string());
+}
+
 void SessionDocument::requireEditable() const {
   if (readOnly()) throw OutputError(file_, read_only_reason_);
   if (recovery_)
@@ -203,10 +392,8 @@ void SessionDocument::requireEditable() const {
 void SessionDocument::acceptRecovery() {
   if (!recovery_) return;
   if (readOnly()) throw OutputError(file_, read_only_reason_);
-  Journal journal = *recovery_;
-  journal.edits = {"Recover " + countText(recovery_->edits.size(), "edit")};
-  writeJournal(journalFileOf(file_), journal, sessionText(recovery_->session, file_));
-  journal_ = std::move(journal);
+  if (!recovery_->damage.empty()) keepDamagedJournal();
+  addToJournal(recovery_->session, "Recover " + countText(recovery_->edits.size(), "edit"));
   session_ = std::move(recovery_->session);
   recovery_.reset();
   logEvent(LogLevel::kInfo,
@@ -224,14 +411,21 @@ void SessionDocument::apply(const Session& next, const std::string& text) {
   requireEditable();
   const Session wanted = ordered(next);
   if (wanted == session_) return;
-  const std::string session_text = sessionText(wanted, file_);
-  requireReadable(wanted, file_, session_text);
-  Journal journal = journal_.value_or(Journal{file_sha256_, {}, {}});
-  journal.time = utcNowText();
-  journal.edits.push_back(text);
-  writeJournal(journalFileOf(file_), journal, session_text);
-  journal_ = std::move(journal);
+  addToJournal(wanted, text);
   session_ = wanted;
+}
+
+void SessionDocument::addToJournal(const Session& next, const std::string& text) {
+  const fs::path journal = journalFileOf(file_);
+  const std::string change = changeText(session_, next, journal);
+  JournalWriter writer = journal_.value_or(JournalWriter(journal, file_sha256_));
+  // The session file has a line for each member: at most twice as long as the change.
+  if (file_bytes_ + 2 * (writer.size_bytes() + change.size()) > kMaxSessionBytes)
+    throw OutputError(file_, "the session and its unsaved edits reach the limit of " +
+                                 std::to_string(kMaxSessionBytes / kMegabyte) +
+                                 " MB: save the session, then remove cases or runs");
+  writer.addEdit(text, change);
+  journal_ = std::move(writer);
 }
 
 void SessionDocument::save() {
@@ -242,7 +436,16 @@ void SessionDocument::save() {
     throw OutputError(file_,
                       "another program has changed the file since it was opened; save under "
                       "another name");
-  file_sha256_ = writeSessionFile(file_, session_);
+  const std::string text = sessionFileText(session_, file_);
+  std::string sha256 = sha256Text(text);
+  try {
+    if (journal_) journal_->addSaved(sha256);
+  } catch (const OutputError&) {
+    // The file is what counts. A program that ends before the journal is removed sets it aside.
+  }
+  writeFileAtomically(file_, text, FileUse::kSession);
+  file_sha256_ = std::move(sha256);
+  file_bytes_ = text.size();
   saved_ = session_;
   journal_.reset();
   fs::remove(journalFileOf(file_), error);  // one that stays is recognized when opened
@@ -261,6 +464,7 @@ void SessionDocument::readAgain() {
   SavedSession saved = readSessionFile(file_);
   discardChanges();
   file_sha256_ = saved.file_sha256;
+  file_bytes_ = saved.size_bytes;
   session_ = saved_ = std::move(saved.session);
 }
 
@@ -277,7 +481,10 @@ void SessionDocument::saveAs(const fs::path& file) {
   std::error_code error;
   if (fs::exists(journalFileOf(other.file_), error))
     other.setJournalAside("the session was replaced by another one");
-  other.file_sha256_ = writeSessionFile(other.file_, session);
+  const std::string text = sessionFileText(session, other.file_);
+  writeFileAtomically(other.file_, text, FileUse::kSession);
+  other.file_sha256_ = sha256Text(text);
+  other.file_bytes_ = text.size();
   other.session_ = other.saved_ = std::move(session);
   if (journal_) fs::remove(journalFileOf(file_), error);  // its edits are in the new file
   *this = std::move(other);

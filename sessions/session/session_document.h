@@ -10,33 +10,9 @@
 
 #include "sessions/io/files/file_lock.h"
 #include "sessions/session/session.h"
+#include "sessions/session/session_journal.h"
 
 namespace boresight::sessions {
-
-/// The edits since the session was saved.
-struct Journal {
-  std::string base_sha256;         ///< of the session file that the first edit changed
-  std::string time;                ///< UTC, of the last edit
-  std::vector<std::string> edits;  ///< descriptions, in their order
-};
-
-/// Edits that were made but not saved when a program ended.
-struct Recovery : Journal {
-  Session session;  ///< with all edits
-};
-
-/// Replaces the journal, whole or not at all; it is on the disk when this returns. `session_text`
-/// is the `sessionText` after the last edit:
-///
-///     {"format": "boresight-journal", "version": 1, "base_sha256": "...", "time": "...",
-///      "edits": ["...", ...], "session": {"format": "boresight-session", ...}}
-///
-/// OutputError; then the former journal is unchanged.
-void writeJournal(const std::filesystem::path& file, const Journal& journal,
-                  const std::string& session_text);
-
-/// InputError for a missing file and one that is not a journal.
-Recovery readJournal(const std::filesystem::path& file);
 
 enum class Access { kEdit, kReadOnly };
 
@@ -69,9 +45,11 @@ class SessionDocument {
   void declineRecovery();
 
   /// Makes `next` the session after it is written to the journal; `text` describes the edit.
-  /// OutputError when it cannot be written, the document is read-only, or a recovery waits;
-  /// InputError when `next` is not a session that a file could hold (two cases of one id, an option
-  /// out of range). Then nothing has changed. A `next` equal to the current value is no edit.
+  /// The cost grows with the edit, not with the session.
+  /// OutputError when it cannot be written, the document is read-only, a recovery waits, or the
+  /// session would be too large to be saved; InputError when `next` is not a session that a file
+  /// could hold (two cases of one id, an option out of range). Then nothing has changed. A `next`
+  /// equal to the current value is no edit.
   void apply(const Session& next, const std::string& text);
 
   /// Writes the file and drops the journal. OutputError, also when another program has changed the
@@ -94,14 +72,18 @@ class SessionDocument {
   void readJournalBeside();
   void notice(const std::string& text);
   void setJournalAside(const std::string& why);
+  void keepDamagedJournal();
   void requireEditable() const;
+  /// Writes an edit from session_ to `next` to the journal.
+  void addToJournal(const Session& next, const std::string& text);
 
   std::filesystem::path file_;
-  std::string file_sha256_;  ///< of the file as it was read or written last
+  std::string file_sha256_;     ///< of the file as it was read or written last
+  std::size_t file_bytes_ = 0;  ///< its size
   Session session_;
   Session saved_;
   std::unique_ptr<FileLock> lock_;
-  std::optional<Journal> journal_;  ///< empty while there are no edits
+  std::optional<JournalWriter> journal_;  ///< empty while there are no edits
   std::optional<Recovery> recovery_;
   std::string read_only_reason_;
   std::vector<std::string> notices_;

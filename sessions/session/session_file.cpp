@@ -2,6 +2,7 @@
 #include "sessions/session/session_file.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sessions/annotation/annotations_file.h"
 #include "sessions/decision/decision.h"
@@ -58,12 +59,7 @@ void readAnnotationsOf(const JsonReader& json, Session& session) {
   if (!rounds) return;
   for (const auto& [id, list] : rounds->members()) {
     requireCase(session, id, list);
-    AnnotationRounds all;
-    for (const JsonReader& round : list.elements())
-      all.push_back(
-          {round.at("by").nonEmptyText(), readTime(round.at("time")), readAnnotations(round)});
-    if (all.empty()) list.fail("there is none: leave the case out");
-    session.rounds.insert_or_assign(id, std::move(all));
+    session.rounds.insert_or_assign(id, readRounds(list));
   }
 }
 
@@ -158,15 +154,17 @@ Session readMembers(const JsonReader& json) {
   if (const auto robust = json.find("robust_annotations"))
     session.robust_annotations = robust->boolean();
   if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
-  for (const JsonReader& decision : json.at("decisions").elements()) {
-    session.decisions.push_back(readDecision(decision));
-    requireCase(session, session.decisions.back().case_id, decision.at("case"));
+  for (const JsonReader& item : json.at("decisions").elements()) {
+    Decision decision = readDecision(item);
+    requireCase(session, decision.case_id, item.at("case"));
+    session.decisions.push_back(std::move(decision));
   }
-  for (const JsonReader& run : json.at("runs").elements()) {
-    session.runs.push_back(readFields<RunRecord>(run));
-    requireCase(session, session.runs.back().case_id, run.at("case"));
+  for (const JsonReader& item : json.at("runs").elements()) {
+    RunRecord run = readRunRecord(item);
+    requireCase(session, run.case_id, item.at("case"));
+    session.runs.push_back(std::move(run));
   }
-  session.view = readFields<DocumentView>(json.at("view"));
+  session.view = readView(json.at("view"));
   if (const auto chosen = json.at("view").find("case"))
     requireCase(session, session.view.case_id, *chosen);
   return session;
@@ -185,21 +183,51 @@ fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
 }
 
 SavedSession readSessionFile(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kSession);
+  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxSessionBytes, FileUse::kSession);
   if (asText(bytes).starts_with("PK\x03\x04"))
     throw InputError(file, "an archive of whs pack: unpack it, then open its session");
   const JsonDocument document(file, asText(bytes));
-  return {readSession(document.root()), sha256Text(bytes)};
+  return {readSession(document.root()), sha256Text(bytes), bytes.size()};
+}
+
+std::string sessionFileText(const Session& session, const fs::path& file) {
+  std::string text = sessionText(session, file);
+  if (text.size() > kMaxSessionBytes)
+    throw OutputError(file, "the session is larger than the limit of " +
+                                std::to_string(kMaxSessionBytes / kMegabyte) + " MB");
+  return text;
 }
 
 std::string writeSessionFile(const fs::path& file, const Session& session) {
-  const std::string text = sessionText(session, file);
-  if (text.size() > kMaxJsonBytes)
-    throw OutputError(file, "the session is larger than the limit of " +
-                                std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
+  const std::string text = sessionFileText(session, file);
   writeFileAtomically(file, text, FileUse::kSession);
   return sha256Text(text);
 }
+
+ordered_json toJson(const RunRecord& run, const PathWriter& path) { return fieldsJson(run, &path); }
+RunRecord readRunRecord(const JsonReader& json) { return readFields<RunRecord>(json); }
+
+ordered_json toJson(const AnnotationRounds& rounds) {
+  ordered_json json = ordered_json::array();
+  for (const AnnotationRound& round : rounds) {
+    ordered_json value = {{"by", round.by}, {"time", round.time}};
+    value.update(toJson(round.annotations));
+    json.push_back(std::move(value));
+  }
+  return json;
+}
+
+AnnotationRounds readRounds(const JsonReader& json) {
+  AnnotationRounds all;
+  for (const JsonReader& round : json.elements())
+    all.push_back(
+        {round.at("by").nonEmptyText(), readTime(round.at("time")), readAnnotations(round)});
+  if (all.empty()) json.fail("there is none: leave the case out");
+  return all;
+}
+
+ordered_json toJson(const DocumentView& view) { return fieldsJson(view); }
+DocumentView readView(const JsonReader& json) { return readFields<DocumentView>(json); }
 
 ordered_json toJson(const Session& session, const fs::path& file) {
   const PathWriter path(file);
@@ -214,19 +242,14 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["annotations"] = ordered_json::object();
   for (const auto& [id, annotation] : session.annotations)
     json["annotations"][id] = toJson(*annotation);
-  for (const auto& [id, rounds] : session.rounds)
-    for (const AnnotationRound& round : *rounds) {
-      ordered_json value = {{"by", round.by}, {"time", round.time}};
-      value.update(toJson(round.annotations));
-      json["rounds"][id].push_back(value);
-    }
+  for (const auto& [id, rounds] : session.rounds) json["rounds"][id] = toJson(*rounds);
   if (session.robust_annotations) json["robust_annotations"] = true;
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
   json["decisions"] = ordered_json::array();
   for (const Decision& decision : session.decisions) json["decisions"].push_back(toJson(decision));
   json["runs"] = ordered_json::array();
-  for (const RunRecord& run : session.runs) json["runs"].push_back(fieldsJson(run, &path));
-  json["view"] = fieldsJson(session.view);
+  for (const RunRecord& run : session.runs) json["runs"].push_back(toJson(run, path));
+  json["view"] = toJson(session.view);
   return json;
 }
 

@@ -23,10 +23,14 @@ std::filesystem::path runsFolderOf(const std::filesystem::path& session_file);
 std::filesystem::path runFileOf(const std::filesystem::path& session_file,
                                 const std::string& digest);
 
+/// Largest session file, and journal: some 100,000 cases.
+inline constexpr std::size_t kMaxSessionBytes = 512 * kMegabyte;
+
 /// A session as it was read, and the hash of the file's bytes, which names this saved state.
 struct SavedSession {
   Session session;
   std::string file_sha256;
+  std::size_t size_bytes = 0;  ///< of the file
 };
 
 /// InputError (file, field, reason) when it is missing or invalid. The inputs that it names are not
@@ -37,11 +41,21 @@ SavedSession readSessionFile(const std::filesystem::path& file);
 /// unchanged.
 std::string writeSessionFile(const std::filesystem::path& file, const Session& session);
 
+/// sessionText() for a file: OutputError when it is longer than the limit.
+std::string sessionFileText(const Session& session, const std::filesystem::path& file);
+
 class PathWriter;
 
 nlohmann::ordered_json toJson(const SessionCase& session_case, const PathWriter& path);
 /// Inverse of toJson; does not detect duplicate ids. InputError.
 SessionCase readSessionCase(const JsonReader& json);
+
+nlohmann::ordered_json toJson(const RunRecord& run, const PathWriter& path);
+RunRecord readRunRecord(const JsonReader& json);  ///< Inverse of toJson. InputError.
+nlohmann::ordered_json toJson(const AnnotationRounds& rounds);
+AnnotationRounds readRounds(const JsonReader& json);  ///< Inverse of toJson. InputError.
+nlohmann::ordered_json toJson(const DocumentView& view);
+DocumentView readView(const JsonReader& json);  ///< Inverse of toJson. InputError.
 
 /// The parts of a case as included in inputsDigest.
 nlohmann::ordered_json fingerprintParts(const SessionCase& session_case);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a session of many cases takes: to open, to describe each case's inputs, to list its queue.
-// The cases share two images; each has a seed of its own.
+// Time that a session of many cases takes: an edit, a stored run, an undo, opening, saving, listing
+// its queue. The cases share two images; each has a seed and a run of its own.
 //
 //     session_benchmark sessions/examples/stations/dataset.json
 #include <cstdio>
@@ -9,7 +9,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/review/queue.h"
+#include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/temporary_folder.h"
@@ -17,6 +19,19 @@
 namespace {
 
 using namespace boresight;  // NOLINT
+
+/// A run of a case that does not exist on the disk.
+sessions::RunRecord runOf(const std::string& case_id, std::int64_t number) {
+  sessions::RunRecord run;
+  run.case_id = case_id;
+  run.digest = sessions::sha256Text(case_id + " " + std::to_string(number));
+  run.file = "/runs/" + run.digest + ".trace";
+  run.status = "converged";
+  run.version = "2.0.0";
+  run.time = "2026-01-31T23:59:59Z";
+  run.inputs_sha256 = run.options_sha256 = run.digest;
+  return run;
+}
 
 sessions::Session sessionOf(const std::filesystem::path& dataset, std::int64_t count) {
   const sessions::Session few = sessions::makeSession(dataset);
@@ -27,9 +42,34 @@ sessions::Session sessionOf(const std::filesystem::path& dataset, std::int64_t c
     session_case.id = "case-" + std::to_string(i);
     session_case.camera_from_station_seed.translation_m.x() += 1e-7 * static_cast<double>(i);
     many.cases.push_back(session_case);
+    many.runs.push_back(runOf(session_case.id, 0));
   }
   return many;
 }
+
+/// The same session with the seed of a case moved.
+sessions::Session withMovedSeed(const sessions::Session& session, const std::string& id) {
+  return sessions::withChanged(session, id, [](sessions::SessionCase& changed) {
+    changed.camera_from_station_seed.translation_m.y() += 1e-7;
+  });
+}
+
+/// An open session on the disk.
+struct OpenSession {
+  test::TemporaryFolder folder;
+  sessions::SessionDocument document;
+  sessions::SessionHistory history{document};
+  std::int64_t cases = 0;
+  std::int64_t edits = 0;
+
+  explicit OpenSession(const sessions::Session& session)
+      : document(sessions::SessionDocument::create(folder.path() / "s.boresight.json", session)),
+        cases(static_cast<std::int64_t>(session.cases.size())) {}
+
+  /// The cases in turn, far apart.
+  std::string nextCase() { return "case-" + std::to_string(++edits * 7919 % cases); }
+  void edit() { history.perform(withMovedSeed(document.session(), nextCase()), "Move the seed"); }
+};
 
 }  // namespace
 
@@ -48,7 +88,7 @@ int main(int argc, char** argv) {
                                    work(state, session);
                                  })
         ->Arg(2000)
-        ->Arg(20000)
+        ->Arg(30000)
         ->Unit(benchmark::kMillisecond);
   };
   each("open", [](benchmark::State& state, const sessions::Session& session) {
@@ -59,6 +99,38 @@ int main(int argc, char** argv) {
       benchmark::DoNotOptimize(sessions::SessionDocument::open(file, sessions::Access::kReadOnly)
                                    .session()
                                    .cases.size());
+  });
+  each("edit", [](benchmark::State& state, const sessions::Session& session) {
+    OpenSession open(session);
+    for (auto _ : state) open.edit();
+  });
+  each("undo and redo", [](benchmark::State& state, const sessions::Session& session) {
+    OpenSession open(session);
+    open.edit();
+    for (auto _ : state) open.history.canUndo() ? open.history.undo() : open.history.redo();
+  });
+  each("store a run", [](benchmark::State& state, const sessions::Session& session) {
+    OpenSession open(session);
+    for (auto _ : state) {
+      const std::string id = open.nextCase();
+      open.document.apply(sessions::withRun(open.document.session(), runOf(id, open.edits)), "Run");
+    }
+  });
+  each("save after an edit", [](benchmark::State& state, const sessions::Session& session) {
+    OpenSession open(session);
+    for (auto _ : state) {
+      open.edit();
+      open.document.save();
+    }
+  });
+  each("recover 100 edits", [](benchmark::State& state, const sessions::Session& session) {
+    OpenSession open(session);
+    for (int i = 0; i < 100; ++i) open.edit();
+    for (auto _ : state)
+      benchmark::DoNotOptimize(
+          sessions::SessionDocument::open(open.document.file(), sessions::Access::kReadOnly)
+              .recovery()
+              .has_value());
   });
   each("queue", [](benchmark::State& state, const sessions::Session& session) {
     for (auto _ : state) benchmark::DoNotOptimize(sessions::queueRows(session).size());

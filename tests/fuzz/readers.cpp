@@ -74,6 +74,21 @@ void sealRecord(std::vector<std::uint8_t>& bytes) {
   }
 }
 
+/// The sums of the lines of a journal.
+void sealJournal(std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t kSum = 16;
+  std::string sum;
+  for (auto line = bytes.begin(); line != bytes.end();) {
+    const auto end = std::find(line, bytes.end(), '\n');
+    if (*line == '{' || end == bytes.end() || end - line <= static_cast<std::ptrdiff_t>(kSum))
+      return;
+    sum = sessions::sha256Text(sum + std::string(line + kSum + 1, end)).substr(0, kSum);
+    std::copy(sum.begin(), sum.end(), line);
+    line[kSum] = ' ';
+    line = end + 1;
+  }
+}
+
 using Path = std::filesystem::path;
 
 /// A mesh that is read is valid, however damaged its file is.
@@ -140,7 +155,8 @@ constexpr FuzzedReader kReaders[] = {
     {"image_png", "image.png", [](const Path& file) { (void)sessions::readSamples(file); }},
     {"image_tiff", "image.tif", [](const Path& file) { (void)sessions::readSamples(file); }},
     {"image_vicar", "image.vic", readLabelled},
-    {"journal", "journal", [](const Path& file) { (void)sessions::readJournal(file); }},
+    {"journal", "journal", [](const Path& file) { (void)sessions::readJournal(file, {}); },
+     sealJournal},
     {"label_tree", "label.json", readTree},
     {"landmarks", "landmarks.json", [](const Path& file) { (void)sessions::readLandmarks(file); }},
     {"annotations", "points.json", [](const Path& file) { (void)sessions::readAnnotations(file); }},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/append_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -89,6 +90,13 @@ class OpenFile {
       if (count <= 0) fail(reported_, count < 0 ? errno : EIO);
       done += static_cast<std::size_t>(count);
     }
+  }
+  /// The next bytes are written after these; they must be all that the file has.
+  void goToEnd(std::uint64_t size_bytes) const {
+    const off_t end = ::lseek(descriptor_, 0, SEEK_END);
+    if (end < 0) fail(reported_, errno);
+    if (static_cast<std::uint64_t>(end) != size_bytes)
+      throw OutputError(reported_, "another program has changed it");
   }
   void setMode(mode_t mode) const {
     if (::fchmod(descriptor_, mode & 07777) != 0) fail(reported_, errno);
@@ -201,6 +209,18 @@ void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> byt
 void writeFileAtomically(const fs::path& file, std::string_view text, FileUse use) {
   writeFileAtomically(
       file, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), use);
+}
+
+void appendToFile(const fs::path& file, std::uint64_t size_bytes, std::string_view text) {
+  OpenFile opened(file, file, 0, false);
+  opened.goToEnd(size_bytes);
+  try {
+    opened.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    opened.finish();
+  } catch (const OutputError&) {
+    (void)::truncate(file.c_str(), static_cast<off_t>(size_bytes));  // else seen by the next append
+    throw;
+  }
 }
 
 void moveIntoPlace(const fs::path& finished, const fs::path& file, FileUse use) {

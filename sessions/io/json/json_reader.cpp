@@ -78,10 +78,13 @@ class JsonCheck : public nlohmann::json_sax<nlohmann::json> {
   std::vector<std::set<std::string>> names_;  ///< of the open objects
 };
 
+/// Of a text in memory; most files are limited to kMaxJsonBytes when they are read.
+constexpr std::size_t kMaxTextBytes = 8 * kMaxJsonBytes;
+
 nlohmann::json parse(const std::filesystem::path& file, std::string_view text) {
-  if (text.size() > kMaxJsonBytes)
+  if (text.size() > kMaxTextBytes)
     throw InputError(
-        file, "larger than the limit of " + std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
+        file, "larger than the limit of " + std::to_string(kMaxTextBytes / kMegabyte) + " MB");
   JsonCheck check(file);
   nlohmann::json::sax_parse(text, &check);
   try {

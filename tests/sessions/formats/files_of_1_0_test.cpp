@@ -83,7 +83,7 @@ TEST(FilesOf1_0, Session) {
   ASSERT_TRUE(decision);
   EXPECT_EQ(std::tie(decision->verdict, decision->by, decision->digest),
             std::tuple(Verdict::kValidated, "A. Operator", kDigest));
-  const Recovery recovery = readJournal(fileOf1_0("journal"));
+  const Recovery recovery = readWholeJournal(fileOf1_0("journal"));
   EXPECT_EQ(recovery.edits, (std::vector<std::string>{"Rename", "Rename"}));
 }
 

@@ -15,6 +15,7 @@
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/in_child.h"
 #include "tests/sessions/session/random_session.h"
+#include "tests/support/all_cases.h"
 #include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -55,6 +56,13 @@ struct SessionDocumentTest : testing::Test {
     ASSERT_EQ(said, "the child did not end by itself");
   }
 };
+
+/// The line of a journal that precedes a save, after these lines.
+std::string savedLine(const std::string& journal, const std::string& session_text) {
+  const std::size_t last = journal.rfind('\n', journal.size() - 2) + 1;
+  const std::string json = "{\"saved_sha256\": \"" + sha256Text(session_text) + "\"}";
+  return sha256Text(journal.substr(last, 16) + json).substr(0, 16) + " " + json + "\n";
+}
 
 TEST_F(SessionDocumentTest, DiscardedChanges_AreNotRecovered) {
   {
@@ -152,14 +160,30 @@ TEST_F(SessionDocumentTest, ADeclinedJournalIsKeptAside) {
   EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
 }
 
+TEST_F(SessionDocumentTest, JournalDamagedInTheMiddle_IsRecoveredUpToThere) {
+  leaveUnsaved(3);
+  std::string journal = folder.read("s.journal");
+  journal[journal.find("Edit 2")] = 'e';
+  folder.write("s.journal", journal);
+  SessionDocument document = SessionDocument::open(file);
+  ASSERT_TRUE(document.recovery());
+  EXPECT_TRUE(document.recovery()->session == edited(first, 1));
+  EXPECT_THAT(document.notices(),
+              Contains(HasSubstr("is damaged: line 3 is damaged; 1 edit before it")));
+  document.acceptRecovery();
+  EXPECT_TRUE(document.session() == edited(first, 1));
+  EXPECT_EQ(folder.read("s.journal.aside-1"), journal) << "nothing is thrown away";
+  document.save();
+  EXPECT_TRUE(readSessionFile(file).session == edited(first, 1));
+}
+
 TEST_F(SessionDocumentTest, SetsADamagedJournalAside) {
   leaveUnsaved(3);
-  const std::string whole = folder.read("s.journal");
-  folder.write("s.journal", whole.substr(0, whole.size() - 7));
+  folder.write("s.journal", "no journal\n");
   SessionDocument document = SessionDocument::open(file);
   EXPECT_FALSE(document.recovery());
-  EXPECT_THAT(document.notices(), Contains(HasSubstr("it is damaged")));
-  EXPECT_EQ(folder.read("s.journal.aside-1"), whole.substr(0, whole.size() - 7));
+  EXPECT_THAT(document.notices(), Contains(HasSubstr("cannot be used: no line of it is whole")));
+  EXPECT_EQ(folder.read("s.journal.aside-1"), "no journal\n");
   document.apply(edited(first, 8), "Edit 8");
   { SessionDocument moved = std::move(document); }
   EXPECT_TRUE(SessionDocument::open(file).recovery()->session == edited(first, 8));
@@ -170,7 +194,13 @@ TEST_F(SessionDocumentTest, SetsAJournalOfAnotherStateAsideUnlessItsEditsWereSav
   const std::string journal = folder.read("s.journal");
   {
     // As if the program had ended between writing the file and removing the journal.
-    writeSessionFile(file, edited(first, 3));
+    SessionDocument document = SessionDocument::open(file);
+    document.acceptRecovery();
+    const std::string accepted = folder.read("s.journal");
+    document.save();
+    folder.write("s.journal", accepted + savedLine(accepted, folder.read("s.json")));
+  }
+  {
     const SessionDocument document = SessionDocument::open(file);
     EXPECT_FALSE(document.recovery());
     EXPECT_THAT(document.notices(), testing::Each(Not(HasSubstr("journal"))));
@@ -182,6 +212,16 @@ TEST_F(SessionDocumentTest, SetsAJournalOfAnotherStateAsideUnlessItsEditsWereSav
   EXPECT_FALSE(document.recovery());
   EXPECT_THAT(document.notices(), Contains(HasSubstr("belongs to another state")));
   EXPECT_TRUE(std::filesystem::exists(folder / "s.journal.aside-1"));
+}
+
+TEST_F(SessionDocumentTest, KilledBeforeTheSavedFileHasItsName_OffersAllEdits) {
+  leaveUnsaved(3);
+  const std::string journal = folder.read("s.journal");
+  folder.write("s.journal", journal + savedLine(journal, "never written"));
+  const SessionDocument document = SessionDocument::open(file);
+  ASSERT_TRUE(document.recovery());
+  EXPECT_EQ(document.recovery()->edits.size(), 3u);
+  EXPECT_TRUE(document.recovery()->session == edited(first, 3));
 }
 
 TEST_F(SessionDocumentTest, TheSecondToOpenItOnlyReads) {
@@ -262,7 +302,7 @@ TEST_F(SessionDocumentTest, AFullDiskLeavesFileAndSessionAsTheyWere) {
   const std::string said = inChild([&] {
     SessionDocument document = SessionDocument::open(file);
     document.apply(edited(first, 1), "Edit 1");
-    limitFileSize(std::filesystem::file_size(file) - 10);
+    limitFileSize(std::filesystem::file_size(folder / "s.journal") + 10);
     std::string text = folder.message([&] { document.apply(edited(first, 2), "Edit 2"); }) + "; ";
     text += document.session() == edited(first, 1) ? "as it was; " : "changed; ";
     text += folder.message([&] { document.save(); });
@@ -276,35 +316,126 @@ TEST_F(SessionDocumentTest, AFullDiskLeavesFileAndSessionAsTheyWere) {
   EXPECT_TRUE(document.recovery()->session == edited(first, 1));
 }
 
-const Journal kJournal = {
-    std::string(64, '0'), "2026-01-31T23:59:59Z", {"Edit \"1\"\nsecond line", "Edit 2"}};
-
-std::string writeJournal(const TemporaryFolder& folder, const Session& session) {
-  writeJournal(folder / "j", kJournal, sessionText(session, folder / "j"));
-  return folder.read("j");
-}
-
-TEST(Journal, ReadsBackWhatWasWritten) {
-  Random random = randomFor("Journal");
+/// A session with random edits in its journal: the sessions after each, and the length of the
+/// journal then.
+struct EditedSession {
   const TemporaryFolder folder;
-  const Session session = randomSession(random);
-  writeJournal(folder, session);
-  const Recovery read = readJournal(folder / "j");
-  EXPECT_EQ(read.base_sha256, kJournal.base_sha256);
-  EXPECT_EQ(read.time, kJournal.time);
-  EXPECT_EQ(read.edits, kJournal.edits);
-  EXPECT_TRUE(read.session == session) << "as in ReadsBackWhatItWrote of the session file";
-}
+  const std::filesystem::path file = folder / "s.json";
+  std::vector<Session> sessions;
+  std::vector<std::size_t> lengths = {0};
+  std::string journal;
+  SavedSession saved;
 
-TEST(Journal, ACutOneIsNotUsed) {
-  const TemporaryFolder folder;
-  const std::string whole = writeJournal(folder, {});
-  for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
-    const auto cut = folder.write("cut", whole.substr(0, length));
-    EXPECT_THROW((void)readJournal(cut), InputError) << length;
+  EditedSession(Random& random, int edits) {
+    SessionDocument document = SessionDocument::create(file, randomSession(random));
+    saved = readSessionFile(file);
+    sessions = {document.session()};
+    for (int i = 0; i < edits; ++i) {
+      document.apply(randomEdit(random, document.session()), "Edit \"" + std::to_string(i) + "\n");
+      if (document.session() == sessions.back()) continue;
+      sessions.push_back(document.session());
+      lengths.push_back(std::filesystem::file_size(folder / "s.journal"));
+    }
+    journal = folder.read("s.journal");
   }
-  EXPECT_THAT(folder.message([&] { (void)readJournal(folder.write("j", "{}\n")); }),
-              HasSubstr("j: format: missing"));
+};
+
+TEST(Journal, CutAtAnyByte_RecoversTheEditsBeforeTheCut) {
+  Random random = randomFor("Journal");
+  const EditedSession edited(random, test::allCases() ? 60 : 12);
+  ASSERT_GT(edited.sessions.size(), 8u);
+  std::size_t whole = 0;
+  for (std::size_t length = 1; length <= edited.journal.size(); ++length) {
+    if (whole + 1 < edited.lengths.size() && edited.lengths[whole + 1] == length) ++whole;
+    // The header and the first edit are written as one file, whole or not at all.
+    if (whole == 0) continue;
+    const std::size_t next = edited.lengths[std::min(whole + 1, edited.lengths.size() - 1)];
+    const bool near_end = length < edited.lengths[whole] + 20 || length + 2 >= next;
+    if (!test::allCases() && !near_end && length % 101 != 0) continue;
+    const auto cut = edited.folder.write("cut", edited.journal.substr(0, length));
+    const Recovery read = readJournal(cut, edited.saved);
+    ASSERT_EQ(read.edits.size(), whole) << length;
+    ASSERT_TRUE(read.session == edited.sessions[whole]) << length;
+    ASSERT_EQ(read.damage, "");
+  }
+  EXPECT_EQ(whole + 1, edited.sessions.size());
+}
+
+TEST(Journal, DamagedAtAnyByte_RecoversTheEditsBeforeIt) {
+  Random random = randomFor("JournalDamage");
+  const EditedSession edited(random, 12);
+  for (int i = 0; i < 400; ++i) {
+    const std::size_t place = indexBelow(random, edited.journal.size());
+    std::string journal = edited.journal;
+    journal[place] = static_cast<char>(journal[place] ^ (1 << random.below(7)));
+    const auto after = std::ranges::upper_bound(edited.lengths, place);
+    const auto whole = static_cast<std::size_t>(after - edited.lengths.begin()) - 1;
+    const auto file = edited.folder.write("damaged", journal);
+    try {
+      const Recovery read = readJournal(file, edited.saved);
+      ASSERT_EQ(read.edits.size(), whole) << place;
+      ASSERT_TRUE(read.session == edited.sessions[whole]) << place;
+      ASSERT_TRUE(read.damage != "" || place + 1 == journal.size()) << place;
+    } catch (const InputError&) {
+      ASSERT_EQ(whole, 0u) << "of the header " << place;
+    }
+  }
+}
+
+TEST(Journal, OfVersion1_IsOffered) {
+  Random random = randomFor("Journal1");
+  const EditedSession edited(random, 3);
+  const auto write = [&](const std::string& base_sha256) {
+    edited.folder.write(
+        "s.journal", R"({"format": "boresight-journal", "version": 1, "base_sha256": ")" +
+                         base_sha256 +
+                         R"(", "time": "2026-01-31T23:59:59Z", "edits": ["A", "B"], "session": )" +
+                         sessionText(edited.sessions.back(), edited.file) + "}\n");
+  };
+  write(edited.saved.file_sha256);
+  {
+    SessionDocument document = SessionDocument::open(edited.file);
+    ASSERT_TRUE(document.recovery());
+    EXPECT_THAT(document.recovery()->edits, ElementsAre("A", "B"));
+    document.acceptRecovery();
+    EXPECT_TRUE(document.session() == edited.sessions.back());
+  }
+  {
+    SessionDocument document = SessionDocument::open(edited.file);
+    EXPECT_THAT(document.recovery()->edits, ElementsAre("Recover 2 edits"));
+    document.acceptRecovery();
+    document.save();
+  }
+  write(edited.saved.file_sha256);
+  EXPECT_FALSE(SessionDocument::open(edited.file).recovery()) << "its edits are saved";
+  EXPECT_FALSE(std::filesystem::exists(edited.folder / "s.journal"));
+}
+
+TEST_F(SessionDocumentTest, Save_WhenTheJournalIsGone_StillSaves) {
+  SessionDocument document = SessionDocument::create(file, first);
+  document.apply(edited(first, 1), "Edit 1");
+  folder.write("s.journal", "by another program");
+  EXPECT_THAT(folder.message([&] { document.apply(edited(first, 2), "Edit 2"); }),
+              HasSubstr("another program has changed it"));
+  EXPECT_EQ(folder.read("s.journal"), "by another program");
+  std::filesystem::remove(folder / "s.journal");
+  EXPECT_THROW(document.apply(edited(first, 2), "Edit 2"), OutputError);
+  document.save();
+  document.apply(edited(first, 2), "Edit 2");
+  EXPECT_TRUE(readSessionFile(file).session == edited(first, 1));
+  { const SessionDocument moved = std::move(document); }
+  EXPECT_TRUE(SessionDocument::open(file).recovery()->session == edited(first, 2));
+}
+
+TEST_F(SessionDocumentTest, AnEditWritesWhatItChangesAlone) {
+  Random random = randomFor("large");
+  Session session = first;
+  for (int i = 0; i < 300; ++i) session = withCase(session, randomCase(random, std::to_string(i)));
+  SessionDocument document = SessionDocument::create(file, session);
+  document.apply(withChanged(session, "7", [](SessionCase& changed) { changed.tags = {"dusty"}; }),
+                 "Tag");
+  EXPECT_LT(std::filesystem::file_size(folder / "s.journal"), 20000u);
+  EXPECT_GT(std::filesystem::file_size(file), 300000u);
 }
 
 TEST(SessionHistory, UndoesAndRedoesEveryStep) {

@@ -33,7 +33,7 @@ StatesOnDisk statesOnDisk(const std::filesystem::path& file) {
   states.latest = states.saved;
   const std::filesystem::path journal = sessions::journalFileOf(file);
   if (!std::filesystem::exists(journal)) return states;
-  const sessions::Recovery left = sessions::readJournal(journal);
+  const sessions::Recovery left = sessions::readJournal(journal, sessions::readSessionFile(file));
   states.latest = sessions::sha256Text(sessions::sessionText(left.session, file));
   states.edits = left.edits.size();
   return states;

@@ -42,7 +42,10 @@ class Operator {
         sessions::sessionText(window_.document().session(), window_.document().file());
     const std::filesystem::path journal = sessions::journalFileOf(window_.document().file());
     const std::size_t edits =
-        std::filesystem::exists(journal) ? sessions::readJournal(journal).edits.size() : 0;
+        std::filesystem::exists(journal)
+            ? sessions::readJournal(journal, sessions::readSessionFile(window_.document().file()))
+                  .edits.size()
+            : 0;
     std::printf("%s %zu\n", sessions::sha256Text(text).c_str(), edits);
     std::fflush(stdout);
   }

@@ -66,8 +66,11 @@ TEST(JsonDocument, RefusesDeepNestingAndLargeFiles) {
   for (const int depth : {65, 1000000})
     EXPECT_THAT(parseMessage(std::string(depth, '[') + std::string(depth, ']')),
                 HasSubstr("nested deeper than 64 levels"));
-  EXPECT_EQ(parseMessage(std::string(kMaxJsonBytes + 1, ' ')),
-            "f.json: larger than the limit of 64 MB");
+  const test::TemporaryFolder folder;
+  const auto large = folder.write("large.json", "{}");
+  std::filesystem::resize_file(large, kMaxJsonBytes + 1);
+  EXPECT_EQ(folder.message([&] { JsonDocument document(large); }),
+            "large.json: larger than the limit of 64 MB");
 }
 
 TEST(JsonDocument, ReadsAFile) {
