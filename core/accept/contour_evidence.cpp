@@ -88,7 +88,7 @@ double ContourEvidence::shareOfExpected() const {
   const double of_edges = expected_nats > 0.0 ? edges_nats / expected_nats : 0.0;
   const double of_outline =
       outline_expected_nats > 0.0 ? outline_nats / outline_expected_nats : 0.0;
-  return std::max(of_edges, of_outline);
+  return of_edges < -kContradicting ? of_edges : std::max(of_edges, of_outline);
 }
 
 double ContourEvidence::weakest_nats() const {

@@ -48,8 +48,10 @@ struct ContourEvidence {
   /// edges has more.
   double total_nats() const { return edges_nats * places * place_length_px; }
   /// Evidence of all edges, or of the outline if larger, as a share of its expectation at a correct
-  /// pose; 0 without places.
+  /// pose; 0 without places. Where all edges together contradict the pose by more than
+  /// kContradicting, their share alone: an outline may lie along another object's.
   double shareOfExpected() const;
+  static constexpr double kContradicting = 0.3;  ///< share of the expectation, negative
 };
 
 /// Length over which edge pixels of a small view share errors: their evidence counts once.

@@ -2,14 +2,15 @@
 #include "core/accept/pose_evidence.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/math.h"
 
 namespace boresight {
 namespace {
 
-constexpr double kOfTotal = 0.03;
-constexpr double kOfWeakest = 0.5;
+constexpr double kLinearTotal_nats = 10.0;
+constexpr double kLeastScoredSupport = 0.05;
 
 // The probability's logistic function.
 constexpr double kIntercept = 3.49;
@@ -21,6 +22,12 @@ constexpr double kLeastSupport = 0.02;
 constexpr double kLeastExpected_nats = 0.15;
 constexpr double kLeastLogSupport = -2.5;
 constexpr double kMostLogSupport = 0.2;
+
+double asinh(double x) {
+  const double magnitude = std::abs(x);
+  const double result = log(magnitude + std::sqrt(magnitude * magnitude + 1.0));
+  return x < 0.0 ? -result : result;
+}
 
 /// Mean of a measure over the views.
 double meanOf(const std::array<ContourEvidence, kEvidenceViews>& contours,
@@ -40,9 +47,11 @@ double PoseEvidence::weakest_nats() const {
   return meanOf(contours, &ContourEvidence::weakest_nats);
 }
 
-double PoseEvidence::score() const {
-  return kOfTotal * finest().total_nats() / kAlongEdge_px + strongest_nats() +
-         kOfWeakest * weakest_nats() + edge_support;
+double PoseEvidence::score() const { return scoreOf(total_nats(), edge_support); }
+
+double scoreOf(double total_nats, double edge_support) {
+  return asinh(total_nats / kLinearTotal_nats) +
+         0.5 * log(std::max(kLeastScoredSupport, edge_support));
 }
 
 double PoseEvidence::probability() const {

@@ -26,13 +26,21 @@ struct PoseEvidence {
   double strongest_nats() const;
   /// Mean over the views of the weakest quadrant.
   double weakest_nats() const;
-  /// Score to compare poses of one image. Total evidence distinguishes basins; means and edge
-  /// support distinguish minima of one basin (resources/evidence/trust.md).
+  /// Total evidence of the contours, nats: edge pixels of the larger view that share errors count
+  /// once.
+  double total_nats() const { return finest().total_nats() / kAlongEdge_px; }
+  /// Score to compare poses of one image: scoreOf() its total evidence and edge support.
   double score() const;
   /// Probability that the pose is correct: logistic in the contours' share of their expectation, in
   /// the regions, and in the edge support over the expected evidence; fitted to correct and wrong
   /// poses (resources/evidence/trust.md).
   double probability() const;
 };
+
+/// Score to compare poses of the same images: asinh(T / 10) + log(max(s, 0.05)) / 2, with T the
+/// total evidence, nats, and s the edge support, of one view or the sum and the mean of several.
+/// Differences of scores are ratios of evidence, whatever the number of pixels; asinh, since a
+/// half hidden pose may have no evidence in sum (resources/evidence/trust.md).
+double scoreOf(double total_nats, double edge_support);
 
 }  // namespace boresight

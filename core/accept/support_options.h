@@ -10,7 +10,7 @@ namespace boresight {
 /// Options of the acceptance test of a converged pose.
 struct SupportOptions {
   bool gate = true;
-  double min_probability = 0.5;
+  double min_probability = 0.3;
   double min_support = 0.32;
 
   template <class Self, class Visitor>

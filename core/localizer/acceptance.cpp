@@ -24,12 +24,14 @@ LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& o
   return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
 }
 
-LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,
-                                       const LocalizerOptions& options) {
+LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, double probability,
+                                       const Seed& seed, const LocalizerOptions& options) {
+  const double least_outside_nats =
+      probability < kDoubtful ? kLeastDoubtfulMarginOutside_nats : kLeastMarginOutside_nats;
   const bool ambiguous = std::any_of(poses.begin(), poses.end(), [&](const CompetingPose& pose) {
     if (pose.mirrored) return true;
     const bool outside = leftUncertainty(seed, pose.camera_from_station, options.loop.leave_factor);
-    return pose.margin_nats < (outside ? kLeastMarginOutside_nats : kLeastMargin_nats);
+    return pose.margin_nats < (outside ? least_outside_nats : kLeastMargin_nats);
   });
   return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
 }

@@ -25,13 +25,17 @@ inline constexpr double kMirrorExcess = 1.5;
 /// The seed counts as farther off than stated when another pose within twice its uncertainty has
 /// more total evidence than this multiple of the pose's.
 inline constexpr double kOtherExcess = 1.2;
-/// Least margin over a competing pose outside the seed's uncertainty, which the seed excludes. With
-/// a correct mesh no such pose has more evidence; with a mirrored mesh the half turn has 12 to 45
-/// nats more.
-inline constexpr double kLeastMarginOutside_nats = -2.0;
+/// Least margin over a competing pose outside the seed's uncertainty: ln of 10^4, the odds that the
+/// seed is wrong or the mesh mirrored.
+inline constexpr double kLeastMarginOutside_nats = -9.2;
+/// The same for a pose of less probability than kDoubtful.
+inline constexpr double kLeastDoubtfulMarginOutside_nats = -2.0;
+/// Poses of less probability keep the narrower margin over poses outside the seed's uncertainty.
+inline constexpr double kDoubtful = 0.5;
 
-/// Least difference between the scores of the final pose and of the best other pose of the run.
-inline constexpr double kLeastGap = 0.15;
+/// Least difference between the scores of the final pose and of the best other pose of the run:
+/// with the same edge support, a ratio of 1.1 between their total evidence.
+inline constexpr double kLeastGap = 0.1;
 
 /// Whether the image supports the pose after its support pass: kConverged, or the reason why not. A
 /// run that searches also judges the probability, edge width and focal length. Edge width and focal
@@ -42,10 +46,10 @@ LocalizationStatus judgeSupport(const Workspace& measured, const LocalizerOption
 /// kConverged, or kAmbiguous when another hypothesis of the run has about the same score.
 LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& options);
 
-/// kConverged, or kAmbiguous when a competing pose has about as much evidence, or the mesh's mirror
-/// image has more.
-LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,
-                                       const LocalizerOptions& options);
+/// kConverged, or kAmbiguous when a competing pose has about as much evidence as the final pose of
+/// this probability, or the mesh's mirror image has more.
+LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, double probability,
+                                       const Seed& seed, const LocalizerOptions& options);
 
 /// The next comparison of a pose that has passed `last`; none after the last one. Every pose is
 /// compared with others that show about the same edges; one below kUndoubted also with the mesh's

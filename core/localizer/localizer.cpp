@@ -130,9 +130,17 @@ StepReport Localizer::weighed() {
   measured.probability = workspace().probability;
   const PoseComparison::Next next =
       comparison_.takePose(attempt_, workspace().iteration->camera_from_station_before, measured,
-                           pass_.outcome().weak, pass_.context());
+                           pass_.outcome().weak, edgePlaces(), pass_.context());
   comparison_.writeTo(pass_.context(), pass_.workspace());
   return follow(next, LocalizationStatus::kConverged, report);
+}
+
+/// Of the pose refined last; none where poses are matched only.
+EdgePlaces Localizer::edgePlaces() const {
+  const Iteration& iteration = *workspace().iteration;
+  return iteration.kind == IterationKind::kRefine
+             ? EdgePlaces(iteration.refinement, problem().camera)
+             : EdgePlaces();
 }
 
 /// Judges the final pose, then compares it with poses that show about the same edges.
@@ -156,7 +164,7 @@ StepReport Localizer::accepted(LocalizationStatus status, const StepReport& repo
 StepReport Localizer::compared(const StepReport& report) {
   const Seed seed = seedOf(problem());
   const LocalizationStatus status =
-      judgeCompetingPoses(workspace().competing_poses, seed, options());
+      judgeCompetingPoses(workspace().competing_poses, workspace().probability, seed, options());
   const std::optional<PassKind> next = comparisonAfter(comparison_kind_, workspace().probability,
                                                        seed, attempt_.camera_from_station());
   if (status != LocalizationStatus::kConverged || !next) return conclude(status, report);
@@ -171,10 +179,20 @@ StepReport Localizer::conclude(LocalizationStatus status, const StepReport& repo
   return goes_on ? searchAll(report) : finish(status, report);
 }
 
+/// Whether the fault is a capacity that the render of a hypothesis exceeds: it may suffice for the
+/// others.
+bool Localizer::concernsOneHypothesis() const {
+  const bool refines = phase_ == Phase::kIterate || phase_ == Phase::kWeigh;
+  const Status fault = pass_.outcome().fault;
+  return searches() && refines &&
+         (fault == Status::kCapacityExceeded || fault == Status::kTooManyLayers);
+}
+
 /// After a failure: the next start, another attempt, or the end.
 StepReport Localizer::fail(const Ruling& ruling) {
   const StepReport report = show(ruling);
-  if (ruling.status == LocalizationStatus::kFault) return finish(ruling.status, report);
+  if (ruling.status == LocalizationStatus::kFault && !concernsOneHypothesis())
+    return finish(ruling.status, report);
   if (searches()) return follow(comparison_.takeFailure(pass_.context()), ruling.status, report);
   if (attempt_.index() + 1 >= options().loop.max_attempts) return finish(ruling.status, report);
   attempt_.restart();

@@ -118,6 +118,8 @@ class Localizer {
   StepReport decide(StepReport report);
   StepReport iterated(const Ruling& ruling);
   StepReport weighed();
+  EdgePlaces edgePlaces() const;
+  bool concernsOneHypothesis() const;
   StepReport accepted(LocalizationStatus status, const StepReport& report);
   StepReport compared(const StepReport& report);
   StepReport conclude(LocalizationStatus status, const StepReport& report);

@@ -7,6 +7,9 @@
 namespace boresight {
 namespace {
 
+/// Offset, rad or m, by which rounding may move a pose along an axis that is known exactly.
+constexpr double kRounding = 1e-7;
+
 /// Half-widths of the uncertainty in the order of an offset: rotation, translation.
 Vector6d limitsOf(const SeedUncertainty& uncertainty) {
   Vector6d limits;
@@ -79,6 +82,15 @@ bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene
          std::max(kLeast_px, kOfLongerSide * longerSide_px(first, scene, camera));
 }
 
+bool areDistinct(const Pose& first, const EdgePlaces& first_edges, const Pose& second,
+                 const BoundingBox& scene, const Camera& camera) {
+  constexpr double kOfLongerSide = 0.015;
+  constexpr double kLeast_px = 1.0;
+  const std::optional<double> motion_px = first_edges.motionTo_px(second);
+  if (!motion_px) return areDistinct(first, second, scene, camera);
+  return *motion_px > std::max(kLeast_px, kOfLongerSide * longerSide_px(first, scene, camera));
+}
+
 double motionWithin_px(const Seed& seed, const BoundingBox& scene, const Camera& camera) {
   const Vector6d limits = limitsOf(seed.uncertainty);
   double squared_px = 0.0;
@@ -107,7 +119,7 @@ bool leftUncertainty(const Seed& seed, const Pose& camera_from_station, double f
                                            seed.uncertainty.pivot_in_camera_m);
   const Vector6d limits = limitsOf(seed.uncertainty);
   for (int i = 0; i < 6; ++i)
-    if (std::abs(offset[i]) > factor * limits[i]) return true;
+    if (std::abs(offset[i]) > factor * limits[i] + kRounding) return true;
   return false;
 }
 

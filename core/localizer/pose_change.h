@@ -10,6 +10,7 @@
 #include "core/localizer/pass_plan.h"
 #include "core/localizer/pose_hypothesis.h"
 #include "core/localizer/problem.h"
+#include "core/refine/edge_places.h"
 
 // Distances between two poses for the convergence test.
 namespace boresight {
@@ -31,6 +32,11 @@ double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
 /// longer side and than 2 px.
 bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene,
                  const Camera& camera);
+/// The same by the motion of the first pose's edges along their normals, 1.5 % of the longer side
+/// and 1 px: poses that differ only by what the edges do not show are one. By the scene's corners
+/// where there are too few edges.
+bool areDistinct(const Pose& first, const EdgePlaces& first_edges, const Pose& second,
+                 const BoundingBox& scene, const Camera& camera);
 
 /// Whether the pose is nearer than `nearer_px` to one of the hypotheses.
 bool isKnownPose(const Pose& camera_from_station, std::span<const PoseHypothesis> known,

@@ -201,7 +201,8 @@ const PoseEvidence* PoseComparison::evidenceFor(const Pose& camera_from_station,
 PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,
                                               const Pose& camera_from_station_before,
                                               const PoseHypothesis& measured,
-                                              const WeakDirections& weak, const RunContext& run) {
+                                              const WeakDirections& weak, const EdgePlaces& edges,
+                                              const RunContext& run) {
   if (returns_) return Next::kConclude;
   current_.camera_from_station = attempt.camera_from_station();
   current_.evidence = measured.evidence;
@@ -212,6 +213,7 @@ PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,
     best_ = attempt;
     best_before_ = camera_from_station_before;
     weak_ = weak;
+    edges_ = edges;
   }
   hypotheses_.add(current_);
   return takeFailure(run);
@@ -236,7 +238,7 @@ int PoseComparison::competitorIndex(const RunContext& run) const {
   for (int i = 0; i < hypotheses_.size(); ++i) {
     const PoseHypothesis& other = hypotheses_[i];
     if (i == best_index_ || (competitor >= 0 && other.score <= hypotheses_[competitor].score) ||
-        !areDistinct(best, other.camera_from_station, run.scene, run.camera))
+        !areDistinct(best, edges_, other.camera_from_station, run.scene, run.camera))
       continue;
     competitor = i;
   }
@@ -244,10 +246,8 @@ int PoseComparison::competitorIndex(const RunContext& run) const {
 }
 
 double PoseComparison::gap(const RunContext& run) const {
-  if (best_index_ < 0) return 0.0;
   const int competitor = competitorIndex(run);
-  const double other = competitor < 0 ? 0.0 : hypotheses_[competitor].score;
-  return hypotheses_[best_index_].score - std::max(0.0, other);
+  return competitor < 0 ? 0.0 : hypotheses_[best_index_].score - hypotheses_[competitor].score;
 }
 
 void PoseComparison::writeTo(const RunContext& run, Workspace& workspace) const {

@@ -11,6 +11,7 @@
 #include "core/localizer/pass_plan.h"
 #include "core/localizer/pose_hypothesis.h"
 #include "core/localizer/problem.h"
+#include "core/refine/edge_places.h"
 #include "core/search/pose_search.h"
 
 namespace boresight {
@@ -66,9 +67,11 @@ class PoseComparison {
   void endAtKnown(PassPlan& plan) const;
   /// Evidence of the best hypothesis if the pose is nearly the same, else nullptr.
   const PoseEvidence* evidenceFor(const Pose& camera_from_station, const RunContext& run) const;
-  /// Takes the pose of a converged attempt; `measured` has its evidence, score and probability.
+  /// Takes the pose of a converged attempt; `measured` has its evidence, score and probability,
+  /// `edges` places of its refined edges.
   Next takePose(const Attempt& attempt, const Pose& camera_from_station_before,
-                const PoseHypothesis& measured, const WeakDirections& weak, const RunContext& run);
+                const PoseHypothesis& measured, const WeakDirections& weak, const EdgePlaces& edges,
+                const RunContext& run);
   /// Takes an attempt that failed, left the seed's uncertainty, reached a known hypothesis, or does
   /// not convince.
   Next takeFailure(const RunContext& run);
@@ -88,7 +91,7 @@ class PoseComparison {
   int bestIndex() const { return best_index_; }
   /// Index of the best hypothesis that is distinct from the best one; -1: none.
   int competitorIndex(const RunContext& run) const;
-  /// Score of the best hypothesis minus that of the competitor, which counts as 0 when negative.
+  /// Score of the best hypothesis minus that of the competitor; 0 without one.
   double gap(const RunContext& run) const;
   /// Writes the hypotheses so far, with best, competitor and gap, to the workspace.
   void writeTo(const RunContext& run, Workspace& workspace) const;
@@ -123,6 +126,7 @@ class PoseComparison {
   Attempt best_;
   Pose best_before_;          ///< start pose of the best attempt's last iteration
   WeakDirections weak_;       ///< of the best hypothesis
+  EdgePlaces edges_;          ///< of the best hypothesis
   WeakDirections restarted_;  ///< of the hypothesis that restarts begin from
   Pose restarted_from_;
 };

@@ -23,7 +23,7 @@ struct PoseHypothesis {
   HypothesisOrigin origin = HypothesisOrigin::kCandidate;  ///< start of its attempt
   std::int32_t number = 0;                                 ///< of its origin, from 0
   PoseEvidence evidence;     ///< of the image; with several views, of the first one's
-  double score = 0.0;        ///< PoseEvidence::score(), summed over several views
+  double score = 0.0;        ///< scoreOf() the evidence of all views
   double probability = 0.0;  ///< PoseEvidence::probability(), the largest of several views
 };
 

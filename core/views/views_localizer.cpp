@@ -311,21 +311,31 @@ StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& re
   return report;
 }
 
-/// A pose that views support: its score is the sum over them, its probability that of the view that
-/// supports it best.
+/// A pose that views support: its score is of their evidence together, its probability that of the
+/// view that supports it best.
 StepReport ViewsLocalizer::takePose(const StepReport& report) {
   LocalizationStatus status = LocalizationStatus::kConverged;
   if (!first().searches()) return finish(status, report);
   PoseHypothesis measured;
   measured.evidence = first().workspace().evidence;
+  double total_nats = 0.0;
+  double support = 0.0;
+  int refining = 0;
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    if (views_[v].refines) measured.score += views_[v].pass.workspace().evidence.score();
+    if (views_[v].refines) {
+      const PoseEvidence& evidence = views_[v].pass.workspace().evidence;
+      total_nats += evidence.total_nats();
+      support += evidence.edge_support;
+      ++refining;
+    }
     measured.probability = std::max(measured.probability, result_.views[v].probability);
   }
+  measured.score = scoreOf(total_nats, support / std::max(1, refining));
   weak_ = weakDirectionsOfAll();
   probability_ = measured.probability;
-  const PoseComparison::Next next = comparison_.takePose(
-      attempt_, leading().camera_from_station_before, measured, weak_, first().context());
+  const PoseComparison::Next next =
+      comparison_.takePose(attempt_, leading().camera_from_station_before, measured, weak_,
+                           edgePlaces(), first().context());
   comparison_.writeTo(first().context(), first().workspace());
   if (next != PoseComparison::Next::kConclude || !options_.support.gate)
     return follow(next, status, report);
@@ -344,6 +354,15 @@ WeakDirections ViewsLocalizer::weakDirectionsOfAll() const {
       motion.add(views_[v].pass.record().refinement, problem_.views[v].camera,
                  views_[v].camera_from_first);
   return motion.weakDirections();
+}
+
+/// Of the latest refined pose, in the first view that refined it.
+EdgePlaces ViewsLocalizer::edgePlaces() const {
+  for (std::size_t v = 0; v < views_.size(); ++v)
+    if (views_[v].refines && leading().kind == IterationKind::kRefine)
+      return {views_[v].pass.record().refinement, problem_.views[v].camera,
+              views_[v].camera_from_first};
+  return {};
 }
 
 /// Compares the final pose in all views.
@@ -477,7 +496,7 @@ StepReport ViewsLocalizer::stepCompare() {
       std::span(of_views).first(count), attempt_.camera_from_station(), first().context().scene);
   const Seed seed = seedOf(first().problem());
   const LocalizationStatus status =
-      judgeCompetingPoses(result_.competing_poses.items(), seed, options_);
+      judgeCompetingPoses(result_.competing_poses.items(), probability_, seed, options_);
   const std::optional<PassKind> next =
       comparisonAfter(comparison_kind_, probability_, seed, attempt_.camera_from_station());
   if (status == LocalizationStatus::kConverged && next)

@@ -111,6 +111,7 @@ class ViewsLocalizer {
   StepReport takePose(const StepReport& report);
   StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
   WeakDirections weakDirectionsOfAll() const;
+  EdgePlaces edgePlaces() const;
   StepReport compare(PassKind kind, const StepReport& report);
   StepReport decide(const Ruling& ruling);
   StepReport finish(LocalizationStatus status, StepReport report);

@@ -148,6 +148,11 @@ TEST(ContourEvidence, Summaries_FollowTheirDefinitions) {
   evidence.outline_expected_nats = 0.1;
   EXPECT_NEAR(evidence.shareOfExpected(), 3.0, 1e-12);
   EXPECT_EQ(evidence.total_nats(), 150.0);
+  evidence.edges_nats = -0.07;
+  EXPECT_NEAR(evidence.shareOfExpected(), 3.0, 1e-12);
+  evidence.edges_nats = -0.08;
+  EXPECT_NEAR(evidence.shareOfExpected(), -0.32, 1e-12) << "the edges together contradict";
+  evidence.edges_nats = 0.5;
   EXPECT_EQ(evidence.strongest_nats(), 0.5);
   evidence.quadrant_nats = {-1.0, 0.2, 0.9, 0.4};
   evidence.quadrant_places = {9, 10, 41, 40};

@@ -49,9 +49,19 @@ TEST(PoseEvidence, ScoreAndMeans_FollowTheirDefinitions) {
   evidence.contours[1].place_length_px = 2.0;
   EXPECT_DOUBLE_EQ(evidence.strongest_nats(), 0.6);
   EXPECT_DOUBLE_EQ(evidence.weakest_nats(), (-0.6 + 0.4) / 2.0);
-  EXPECT_DOUBLE_EQ(evidence.score(),
-                   0.03 * (0.4 * 500 * 2.0) / 8.0 + 0.6 + 0.5 * evidence.weakest_nats() + 0.7);
+  EXPECT_DOUBLE_EQ(evidence.total_nats(), 0.4 * 500 * 2.0 / 8.0);
+  EXPECT_NEAR(evidence.score(), std::asinh(5.0) + 0.5 * std::log(0.7), 1e-14);
   EXPECT_EQ(&evidence.finest(), &evidence.contours[1]);
+}
+
+TEST(PoseEvidence, Score_IsARatioOfEvidence) {
+  for (const double total_nats : {-40.0, -0.3, 0.0, 0.02, 8.0, 1200.0})
+    for (const double support : {0.0, 0.04, 0.05, 0.3, 1.0})
+      EXPECT_NEAR(scoreOf(total_nats, support),
+                  std::asinh(total_nats / 10.0) + 0.5 * std::log(std::max(0.05, support)), 1e-14);
+  // The same scene with twice the number of pixels.
+  EXPECT_NEAR(scoreOf(900.0, 0.5) - scoreOf(600.0, 0.5),
+              scoreOf(1800.0, 0.5) - scoreOf(1200.0, 0.5), 1e-4);
 }
 
 }  // namespace

@@ -301,5 +301,34 @@ TEST(LocalizerSearch, AnyKernelsAndWorkers_GiveTheSameBits) {
     EXPECT_EQ(sharedDigest(scene.problem(), defaultProfile(), workers), plain) << workers;
 }
 
+/// The seed from which an offset within the free axes (rotation, translation; bits) leads to the
+/// truth; the other axes are known exactly.
+void knowExactlyBut(unsigned free_axes, std::uint64_t seed, Case& scene) {
+  SeedUncertainty& uncertainty = scene.uncertainty;
+  Vector6d offset = offsetWithin(uncertainty, 0.6, seed);
+  for (int axis = 0; axis < 6; ++axis) {
+    if ((free_axes >> axis & 1U) != 0) continue;
+    offset[axis] = 0.0;
+    (axis < 3 ? uncertainty.rotation_rad[axis] : uncertainty.translation_m[axis - 3]) = 0.0;
+  }
+  Pose moved = scene.truth;
+  moved.translation_m -= offset.tail<3>();
+  Vector6d turn = Vector6d::Zero();
+  turn.head<3>() = -offset.head<3>();
+  scene.seed = displacedAboutPivot(moved, turn, uncertainty.pivot_in_camera_m);
+}
+
+/// A turntable, a rail, an object that gravity levels.
+TEST(LocalizerSearch, AxesThatAreKnownExactly_DoNotEndTheRun) {
+  for (const unsigned free_axes : {0U, 0b000100U, 0b100000U, 0b111000U, 0b000111U, 0b011111U})
+    for (const std::uint64_t seed : {1U, 2U}) {
+      SCOPED_TRACE(testing::Message() << "free axes " << free_axes << ", seed " << seed);
+      Case scene = stationCase(seed);
+      knowExactlyBut(free_axes, seed, scene);
+      const FinishedRun run(scene);
+      expectTruth(scene, run.workspace, 0.0002, 0.1 * kDegree_rad);
+    }
+}
+
 }  // namespace
 }  // namespace boresight::test

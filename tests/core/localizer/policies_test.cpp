@@ -85,24 +85,27 @@ Pose movedBy(Pose pose, double x_m) {
 
 /// Poses 20 mm off lie within the uncertainty, those 200 mm off beyond it.
 TEST(Acceptance, CompetingPose_IsAmbiguousByItsPlaceAndMargin) {
-  const auto judged = [](std::span<const CompetingPose> poses) {
-    return judgeCompetingPoses(poses, seedInFront(), defaultProfile());
+  const auto judged = [](std::span<const CompetingPose> poses, double probability) {
+    return judgeCompetingPoses(poses, probability, seedInFront(), defaultProfile());
   };
-  EXPECT_EQ(judged({}), LocalizationStatus::kConverged);
+  EXPECT_EQ(judged({}, 0.3), LocalizationStatus::kConverged);
   const struct {
-    double x_m, margin_nats;
+    double x_m, margin_nats, probability;
     bool mirrored;
     LocalizationStatus expected;
-  } cases[] = {{0.02, -10.0, false, LocalizationStatus::kAmbiguous},
-               {0.02, 2.0, false, LocalizationStatus::kAmbiguous},
-               {0.02, 4.0, false, LocalizationStatus::kConverged},
-               {0.2, -1.0, false, LocalizationStatus::kConverged},
-               {0.2, -3.0, false, LocalizationStatus::kAmbiguous},
-               {0.0, 100.0, true, LocalizationStatus::kAmbiguous}};
-  for (const auto& [x_m, margin_nats, mirrored, expected] : cases) {
+  } cases[] = {{0.02, -10.0, 0.9, false, LocalizationStatus::kAmbiguous},
+               {0.02, 2.0, 0.9, false, LocalizationStatus::kAmbiguous},
+               {0.02, 4.0, 0.9, false, LocalizationStatus::kConverged},
+               {0.2, -9.0, 0.5, false, LocalizationStatus::kConverged},
+               {0.2, -9.4, 0.9, false, LocalizationStatus::kAmbiguous},
+               {0.2, -1.0, 0.4, false, LocalizationStatus::kConverged},
+               {0.2, -3.0, 0.49, false, LocalizationStatus::kAmbiguous},
+               {0.0, 100.0, 0.9, true, LocalizationStatus::kAmbiguous}};
+  for (const auto& [x_m, margin_nats, probability, mirrored, expected] : cases) {
     CompetingPose pose{movedBy(seedInFront().camera_from_station, x_m), 0.9, margin_nats};
     pose.mirrored = mirrored;
-    EXPECT_EQ(judged({&pose, 1}), expected) << x_m << " m, " << margin_nats << " nats";
+    EXPECT_EQ(judged({&pose, 1}, probability), expected)
+        << x_m << " m, " << margin_nats << " nats, probability " << probability;
   }
 }
 
@@ -182,13 +185,14 @@ class PoseComparisonTest : public testing::Test {
     weak.offset_per_px[0][3] = 1e-4;
     weak.offset_per_px[1][0] = 1e-3;
     weak.pivot_in_camera_m = attempt.camera_from_station() * Eigen::Vector3d::Zero();
-    return comparison.takePose(attempt, attempt.camera_from_station(), measured, weak,
+    return comparison.takePose(attempt, attempt.camera_from_station(), measured, weak, edges,
                                pass.context());
   }
 
   ScriptedPass pass;
   const Seed seed = seedInFront();
   std::vector<PoseCandidate> candidates;
+  EdgePlaces edges;
   PoseComparison comparison;
 };
 
@@ -350,11 +354,36 @@ TEST_F(PoseComparisonTest, PosesNearTheBestOne_AreNotItsCompetitors) {
   const Attempt near(1, {movedBy(candidates[0].camera_from_station, 0.001), seed.uncertainty});
   (void)take(near, 4.9);
   EXPECT_EQ(comparison.competitorIndex(pass.context()), -1);
-  EXPECT_NEAR(comparison.gap(pass.context()), 5.0, 1e-12);
+  EXPECT_EQ(comparison.gap(pass.context()), 0.0);
   const Attempt apart(2, {movedBy(candidates[0].camera_from_station, 0.005), seed.uncertainty});
   (void)take(apart, -1.0);
   EXPECT_EQ(comparison.competitorIndex(pass.context()), 2);
-  EXPECT_NEAR(comparison.gap(pass.context()), 5.0, 1e-12) << "below 0 counts as 0";
+  EXPECT_NEAR(comparison.gap(pass.context()), 6.0, 1e-12) << "scores may be negative";
+}
+
+/// All edges run along x: a motion along them shows nothing, however far it is.
+TEST_F(PoseComparisonTest, PosesThatDifferAlongTheEdges_AreNotCompetitors) {
+  std::array<EdgeSample, 200> samples;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].point_in_station_m = {4e-4 * static_cast<double>(i) - 0.04, i % 2 ? 0.02 : -0.02,
+                                     0.0};
+    samples[i].normal_y = 127;
+  }
+  RefinementResult refined;
+  offer(1);
+  refined.camera_from_station = candidates[0].camera_from_station;
+  refined.samples = samples;
+  refined.sample_count = static_cast<std::int32_t>(samples.size());
+  edges = EdgePlaces(refined, pass.context().camera);
+  (void)take(comparison.next(0, pass.context()), 5.0, 0.3);
+  const Pose& best = candidates[0].camera_from_station;
+  (void)take(Attempt(1, {movedBy(best, 0.01), seed.uncertainty}), 4.9);
+  EXPECT_EQ(comparison.competitorIndex(pass.context()), -1);
+  Pose across = best;
+  across.translation_m.y() += 0.004;  // 24 px; the object is 600 px long
+  (void)take(Attempt(2, {across, seed.uncertainty}), 4.8);
+  EXPECT_EQ(comparison.competitorIndex(pass.context()), 2);
+  EXPECT_NEAR(comparison.gap(pass.context()), 0.2, 1e-12);
 }
 
 class AttemptTest : public testing::Test {
