@@ -42,7 +42,7 @@ std::string supportShare(const LocalizationTrace& trace) {
 }
 
 /// Of a run that hasProbability(), for the middle of a sentence: "the probability that the pose is
-/// right is 99.1 %, needed 50.0 %: edges show 91 % of the evidence ...".
+/// right is 99.1 %, needed 30.0 %: edges show 91 % of the evidence ...".
 std::string probabilityText(const LocalizationTrace& trace) {
   const PoseEvidence& evidence = trace.evidence;
   return "the probability that the pose is right is " + probabilityPercent(trace.probability) +

@@ -133,7 +133,7 @@ TEST(Acceptance, EachRequirementThatFails_IsTheReason) {
   LocalizerOptions options = defaultProfile();
   const auto judged = [&] { return judgeSupport(measured, options, true); };
   EXPECT_EQ(judged(), LocalizationStatus::kConverged);
-  measured.gap = 0.1;
+  measured.gap = 0.09;
   EXPECT_EQ(judgeGap(measured, options), LocalizationStatus::kConverged) << "no other pose";
   measured.competitor = 1;
   EXPECT_EQ(judgeGap(measured, options), LocalizationStatus::kAmbiguous);

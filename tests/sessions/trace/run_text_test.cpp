@@ -210,7 +210,7 @@ TEST(AcceptanceText, SearchedRun_StatesTheProbabilityWithItsParts) {
   run.competing_poses[1].margin_nats = 4.0;
   expectContained(
       acceptanceText(run),
-      {"right is " + fixedText(100.0 * run.probability, 1) + " %, needed 50.0 %",
+      {"right is " + fixedText(100.0 * run.probability, 1) + " %, needed 30.0 %",
        "edges show 100 % of the evidence",
        "differ along " + fixedText(100.0 * run.evidence.region.separatedShare(), 0) + " % of the",
        "support is " + fixedText(100.0 * run.support.share(), 1) + " %",

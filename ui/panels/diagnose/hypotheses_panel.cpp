@@ -65,7 +65,7 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
        tr("Share of the rendered edges that a competing pose has in common with the result."), 2,
        [](Row row) { return row.similarity; }},
       {tr("Score"),
-       tr("Evidence of the image for a compared pose: total and means of its edges, and edge "
+       tr("Evidence of the image for a compared pose, without a scale: total of its edges, and edge "
           "support. The pose with the best score is the result; within %1 of another pose the run "
           "is ambiguous.")
            .arg(kLeastGap),
