@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/station_snapper.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sessions/annotation/image_snap.h"
+#include "sessions/trace/surface_point.h"
 
 namespace boresight::ui {
 
@@ -34,6 +36,17 @@ void StationSnapper::takeCase() {
         mesh_ = std::move(mesh);
         Q_EMIT meshChanged();
       });
+}
+
+std::optional<Eigen::Vector3d> StationSnapper::surfaceAt(const Camera& camera,
+                                                         const Pose& camera_from_station,
+                                                         const Eigen::Vector2d& pixel) const {
+  if (!case_) return std::nullopt;
+  const MeshView mesh = case_->scene.view();
+  const bool any_fixed = std::ranges::any_of(mesh.parts, &ScenePart::fixed_to_camera);
+  if (mesh_ && !any_fixed) return mesh_->surfaceAt(camera, camera_from_station, pixel);
+  const auto surface = sessions::surfacePointAt(camera, mesh, camera_from_station, pixel);
+  return surface ? std::optional(surface->in_station_m) : std::nullopt;
 }
 
 std::vector<sessions::MeshSnap> StationSnapper::near(const Camera& camera,

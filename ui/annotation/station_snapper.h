@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <QObject>
@@ -29,6 +30,12 @@ class StationSnapper : public QObject {
   /// camera, the likeliest first; empty until the features are found.
   std::vector<sessions::MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
                                        const Eigen::Vector2d& pixel, double radius_px) const;
+
+  /// The point of the station (metres) that is seen at a pixel of that camera; empty outside the
+  /// station. Until the features are found, and where parts are fixed to the camera, every face is
+  /// tried: some milliseconds for a hundred thousand.
+  std::optional<Eigen::Vector3d> surfaceAt(const Camera& camera, const Pose& camera_from_station,
+                                           const Eigen::Vector2d& pixel) const;
 
  Q_SIGNALS:
   void meshChanged();

@@ -10,9 +10,11 @@
 #include "sessions/io/cameras/undistort.h"
 #include "sessions/trace/surface_point.h"
 #include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/station_snapper.h"
 #include "ui/scene/scene_annotator.h"
 #include "ui/scene/scene_overlay.h"
 #include "ui/views/display_image.h"
+#include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {
@@ -110,6 +112,7 @@ QMenu* SceneView::showMenu() {
 }
 
 void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& snapper) {
+  snapper_ = &snapper;
   annotator_ = new SceneAnnotator(*canvas(), annotation, snapper);
   overlay_->paint_over = [this](QPainter& painter) {
     annotator_->paint(painter, QRectF(overlay_->rect()));
@@ -267,10 +270,8 @@ void SceneView::pickInScene(const QPointF& pixel) {
   }
   std::optional<SceneAim> aim = annotator_ ? annotator_->aimAt(pixel) : std::nullopt;
   if (!aim) {
-    const auto surface = sessions::surfacePointAt(view.camera, content_->mesh(),
-                                                  view.view_from_station, {pixel.x(), pixel.y()});
-    if (surface) {
-      aim.emplace().point_in_station_m = surface->in_station_m;
+    if (const auto surface = surfaceAt(pixel)) {
+      aim.emplace().point_in_station_m = *surface;
       aim->text = tr("surface");
     }
   }
@@ -283,10 +284,17 @@ void SceneView::pickInScene(const QPointF& pixel) {
 void SceneView::hover(const QPointF& at) {
   showStationPlace(std::nullopt);  // of another view
   if (content_->empty()) return;
+  Q_EMIT stationPlaceHovered(surfaceAt(at - QPointF(0.5, 0.5)));
+}
+
+/// By the tree of faces once it is there: every move of the pointer asks.
+std::optional<Eigen::Vector3d> SceneView::surfaceAt(const QPointF& pixel) const {
   const Viewpoint view = viewpoint();
-  const auto surface = sessions::surfacePointAt(
-      view.camera, content_->mesh(), view.view_from_station, {at.x() - 0.5, at.y() - 0.5});
-  Q_EMIT stationPlaceHovered(surface ? std::optional(surface->in_station_m) : std::nullopt);
+  if (snapper_ && snapper_->mesh())
+    return snapper_->mesh()->surfaceAt(view.camera, view.view_from_station, vectorOf(pixel));
+  const auto surface = sessions::surfacePointAt(view.camera, content_->mesh(),
+                                                view.view_from_station, vectorOf(pixel));
+  return surface ? std::optional(surface->in_station_m) : std::nullopt;
 }
 
 void SceneView::showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m) {

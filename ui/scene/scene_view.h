@@ -77,6 +77,8 @@ class SceneView : public QWidget {
   void pick(const QPointF& at, Qt::KeyboardModifiers modifiers);
   void pickInScene(const QPointF& pixel);
   void hover(const QPointF& at);
+  /// The point of the station (metres) at a pixel of the canvas; empty outside it.
+  std::optional<Eigen::Vector3d> surfaceAt(const QPointF& pixel) const;
 
   ViewState& state_;
   SceneBackend backend_;
@@ -85,6 +87,7 @@ class SceneView : public QWidget {
   SceneOverlay* overlay_ = nullptr;
   QSlider* opacity_ = nullptr;
   SceneAnnotator* annotator_ = nullptr;
+  const StationSnapper* snapper_ = nullptr;
 
   std::shared_ptr<const SceneContent> content_;
   SceneLook look_;

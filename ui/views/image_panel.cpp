@@ -364,12 +364,15 @@ void ImagePanel::askForAgreement() {
 }
 
 /// The point of the station at a pixel; empty outside the station, and while no pose is known.
-std::optional<sessions::SurfacePoint> ImagePanel::surfacePoint(const QPointF& pixel) const {
+std::optional<Eigen::Vector3d> ImagePanel::surfacePoint(const QPointF& pixel) const {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   const std::optional<Pose> pose = state_.knownPose();
   if (!loaded_case || !pose) return std::nullopt;
-  return sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(), *pose,
-                                  {pixel.x(), pixel.y()});
+  const Camera& camera = loaded_case->source.camera;
+  if (surface_at_) return surface_at_(camera, *pose, vectorOf(pixel));
+  const auto surface =
+      sessions::surfacePointAt(camera, loaded_case->scene.view(), *pose, vectorOf(pixel));
+  return surface ? std::optional(surface->in_station_m) : std::nullopt;
 }
 
 void ImagePanel::showPlace(const QPointF& pixel) {
@@ -384,14 +387,13 @@ void ImagePanel::showPlace(const QPointF& pixel) {
     text += tr("  gray %1").arg(loaded_case->image.view().at(x, y));
     if (const auto& samples = display_->samples(); samples && samples->sample_bits > 8)
       text += tr(" (sample %1)").arg(sampleText(*samples, x, y));
-    if (const auto point = surfacePoint(pixel)) {
-      place = point->in_station_m;
+    place = surfacePoint(pixel);
+    if (place)
       text += tr("  station %1  %2  %3 mm, %4 m away")
-                  .arg(1e3 * point->in_station_m.x(), 0, 'f', 2)
-                  .arg(1e3 * point->in_station_m.y(), 0, 'f', 2)
-                  .arg(1e3 * point->in_station_m.z(), 0, 'f', 2)
-                  .arg(point->depth_m, 0, 'f', 3);
-    }
+                  .arg(1e3 * place->x(), 0, 'f', 2)
+                  .arg(1e3 * place->y(), 0, 'f', 2)
+                  .arg(1e3 * place->z(), 0, 'f', 2)
+                  .arg((*state_.knownPose() * *place).z(), 0, 'f', 3);
   }
   Q_EMIT placeText(text);
   Q_EMIT stationPlaceHovered(place);
@@ -419,9 +421,9 @@ void ImagePanel::showContextMenu(const QPointF& pixel, const QPoint& global) {
   copy(tr("pixel"), QStringLiteral("%1 %2").arg(pixel.x(), 0, 'f', 2).arg(pixel.y(), 0, 'f', 2));
   if (const auto point = surfacePoint(pixel))
     copy(tr("station point, m"), QStringLiteral("%1 %2 %3")
-                                     .arg(point->in_station_m.x(), 0, 'f', 6)
-                                     .arg(point->in_station_m.y(), 0, 'f', 6)
-                                     .arg(point->in_station_m.z(), 0, 'f', 6));
+                                     .arg(point->x(), 0, 'f', 6)
+                                     .arg(point->y(), 0, 'f', 6)
+                                     .arg(point->z(), 0, 'f', 6));
   menu.exec(global);
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 #include <QTimer>
@@ -55,6 +57,11 @@ class ImagePanel : public QWidget {
   void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
   /// Sets the text shown without an image; empty: a list of files that can be dropped here.
   void setHint(const QString& hint);
+  /// The point of the station (metres) that is seen at a pixel of a camera; empty outside it.
+  using SurfaceAt = std::function<std::optional<Eigen::Vector3d>(const Camera&, const Pose&,
+                                                                 const Eigen::Vector2d&)>;
+  /// Replaces the search of all faces for the point under the pointer.
+  void setSurfaceAt(SurfaceAt surface_at) { surface_at_ = std::move(surface_at); }
   /// Marks a point of the station in the image; empty: none.
   void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
   /// Actions of the strip of tools.
@@ -80,7 +87,7 @@ class ImagePanel : public QWidget {
   void showPoseLook();
   void showTemplates();
   void bringLayerOfStage();
-  std::optional<sessions::SurfacePoint> surfacePoint(const QPointF& pixel) const;
+  std::optional<Eigen::Vector3d> surfacePoint(const QPointF& pixel) const;
   void showPlace(const QPointF& pixel);
   void showContextMenu(const QPointF& pixel, const QPoint& global);
   void askForRenders();
@@ -111,6 +118,7 @@ class ImagePanel : public QWidget {
   QAction* swipe_ = nullptr;
   QAction* core_view_ = nullptr;
   QTimer blink_timer_;
+  SurfaceAt surface_at_;
   ViewState::CasePtr shown_case_;
   std::array<bool, kLayerCount> asked_{};  ///< lines of this case that were requested
   PoseLines pose_lines_;

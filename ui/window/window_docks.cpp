@@ -81,6 +81,10 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, WindowParts& parts)
   annotation.addBeside(ambiguity);
   scene.setAnnotation(parts.annotation, snapper);
   annotation.setSnapper(snapper);
+  image.setSurfaceAt([&one = snapper](const Camera& camera, const Pose& camera_from_station,
+                                      const Eigen::Vector2d& pixel) {
+    return one.surfaceAt(camera, camera_from_station, pixel);
+  });
   linkViews(parts);
   findings.setAction(
       windowText("Fix ..."),

@@ -8,6 +8,7 @@
 #include "sessions/session/ignore_strokes.h"
 #include "tests/ui/pointer.h"
 #include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/station_snapper.h"
 #include "ui/panels/annotate/levels_histogram.h"
 #include "ui/panels/run/nudge_gizmo.h"
 #include "ui/views/compare_view.h"
@@ -165,6 +166,31 @@ TEST_F(CanvasToolsTest, GizmoEnterUsesThePoseAsSeedAndEscapeEndsTheTool) {
   QTest::keyClick(&window_, Qt::Key_N);
   QTest::keyClick(&view(), Qt::Key_Escape);
   EXPECT_FALSE(action("nudgeSeed").isChecked());
+}
+
+/// All faces were tried for each move of the pointer.
+TEST_F(CanvasToolsTest, PointUnderThePointer_IsFoundByTheTreeAsByAllFaces) {
+  ASSERT_TRUE(wait([&] { return window_.findChild<StationSnapper*>()->mesh() != nullptr; }));
+  std::optional<Eigen::Vector3d> hovered;
+  QPointF pixel;
+  QObject owner;
+  QObject::connect(&view(), &ImageView::cursorMoved, &owner,
+                   [&](const QPointF& at) { pixel = at; });
+  QObject::connect(&window_.image(), &ImagePanel::stationPlaceHovered, &owner,
+                   [&](const std::optional<Eigen::Vector3d>& place) { hovered = place; });
+  const auto& shown = *window_.state().currentCase();
+  int seen = 0;
+  for (const QPointF& off : {QPointF(0, 0), QPointF(15, -9), QPointF(-22, 14), QPointF(400, 300)}) {
+    test::moveMouse(view(),
+                    view().transform().toWidget(middleAt(*window_.state().knownPose())) + off);
+    const auto expected = sessions::surfacePointAt(shown.source.camera, shown.scene.view(),
+                                                   *window_.state().knownPose(), vectorOf(pixel));
+    ASSERT_EQ(hovered.has_value(), expected.has_value());
+    if (!expected) continue;
+    EXPECT_LT((*hovered - expected->in_station_m).norm(), 1e-9);
+    ++seen;
+  }
+  EXPECT_GT(seen, 0);
 }
 
 TEST_F(CanvasToolsTest, OneToolWorksAtATime) {
