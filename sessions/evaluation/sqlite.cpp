@@ -63,7 +63,10 @@ SqlDatabase::SqlDatabase(const std::filesystem::path& file, SqlAccess access)
     fail("it is a folder, a pipe or a device, not a file");
   if (access == SqlAccess::kRead) noteInput(file, FileUse::kResults);
   sqlite3* handle = nullptr;
-  const int code = sqlite3_open_v2(file.c_str(), &handle, flagsOf(access), nullptr);
+  // Of a relative name SQLite takes "file:..." for an address and ":memory:" for no file.
+  const std::filesystem::path whole =
+      file.empty() ? std::filesystem::path(":memory:") : std::filesystem::absolute(file, error);
+  const int code = sqlite3_open_v2(whole.c_str(), &handle, flagsOf(access), nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK && handle == nullptr) throw std::bad_alloc();
   require(code);
