@@ -9,6 +9,7 @@
 #include "sessions/baselines/methods.h"
 #include "sessions/io/cameras/camera_field.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_check.h"
 #include "sessions/version.h"
@@ -24,7 +25,7 @@ DatasetFacts sequenceFacts(const SequenceOrder& order, std::int64_t frames) {
   facts.dataset = std::filesystem::absolute(order.images).lexically_normal().string();
   facts.cases = frames;
   facts.version = kVersion;
-  nlohmann::ordered_json inputs = {{"images", facts.dataset},
+  nlohmann::ordered_json inputs = {{"images", utf8Text(facts.dataset)},
                                    {"inputs", inputsDigest(without_image)},
                                    {"motion", toJson(order.motion)}};
   facts.dataset_sha256 = sha256Text(inputs.dump());
@@ -89,6 +90,7 @@ CaseSequence::CaseSequence(const SequenceOrder& order, SequenceInputs inputs,
     : source_(std::move(source)),
       total_(source_->count()),
       writer_(order.results, sequenceFacts(order, total_)),
+      notes_(source_->notes()),
       sequence_(std::move(inputs)) {
   writer_.admit(methodFacts(kWhs, order.profile, order.options));
   earlier_ = earlierResults(order.results);
@@ -106,6 +108,7 @@ std::optional<RunResult> CaseSequence::next(const std::stop_token& stop) {
   const std::optional<Frame> frame = ahead_.get();
   if (stop.stop_requested()) return std::nullopt;
   if (!frame) {
+    notes_ = source_->notes();
     writer_.end();
     return std::nullopt;
   }
