@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/files/atomic_file.h"
+#include "sessions/io/json/json_writer.h"
 
 namespace boresight::app {
 namespace {
@@ -77,7 +78,8 @@ std::string typedCommand() {
 
 void writeResultLines(const std::string& file, const std::vector<sessions::RunResult>& results) {
   std::string text;
-  for (const sessions::RunResult& result : results) text += sessions::toJson(result).dump() + "\n";
+  for (const sessions::RunResult& result : results)
+    text += sessions::compactJson(sessions::toJson(result)) + "\n";
   sessions::writeFileAtomically(file, text);
 }
 

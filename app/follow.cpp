@@ -100,13 +100,14 @@ void showProgress(const TerminalLine& line, const sessions::CaseSequence& sequen
             rateText(sequence));
 }
 
-void followAll(sessions::CaseSequence& sequence, const std::string& out,
+void followAll(sessions::CaseSequence& sequence, const FollowArguments& arguments,
                const std::stop_token& stop) {
   if (sequence.earlier() > 0)
-    note(out + ": resumed, " + std::to_string(sequence.earlier()) + " frames are done");
+    note(arguments.out + ": resumed, " + std::to_string(sequence.earlier()) + " frames are done");
   const TerminalLine line;
   while (const auto result = sequence.next(stop)) showProgress(line, sequence, *result);
   line.erase();
+  for (const std::string& text : sequence.notes()) note(arguments.images + ": " + text);
   print(sessions::sequenceText(sequence.sequence()) + rateText(sequence));
 }
 
@@ -130,7 +131,7 @@ int follow(FollowArguments& arguments) {
   const InterruptWatch watch(stop);
   {
     sessions::CaseSequence sequence(order, std::move(inputs), std::move(source));
-    followAll(sequence, arguments.out, stop.get_token());
+    followAll(sequence, arguments, stop.get_token());
     frames = sequence.sequence().frames();
     lost = static_cast<std::int64_t>(sequence.sequence().lost().size());
   }

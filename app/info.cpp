@@ -430,12 +430,14 @@ void describe(const path& file, const std::string& mesh_unit, const DatasetArgum
   };
   if (sessions::isCahvorFile(file)) return describeCamera(sessions::readCahvorCamera(file));
   if (is({".json"})) return describeJson(file);
+  if (is({".csv"})) return describeAnnotations(sessions::readAnnotations(file));
   if (is({".ply", ".obj", ".stl", ".gltf", ".glb"})) return describeMesh(file, mesh_unit);
   if (is({".png", ".jpg", ".jpeg", ".tif", ".tiff"}) || sessions::hasImageLabel(file))
     return describeImage(file);
   if (is({".whsr"})) return describeRecord(sessions::readRecord(file));
   if (beginsLikeTrace(file)) return describeTrace(file);
-  throw sessions::InputError(file, "neither an image, a mesh, a JSON file, a record, nor a trace");
+  throw sessions::InputError(
+      file, "neither an image, a mesh, a JSON file, a table of points, a record, nor a trace");
 }
 
 struct InfoArguments {

@@ -9,6 +9,7 @@
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -54,7 +55,8 @@ struct Record {
   int line = 0;
 };
 
-/// Reads the records of a text (RFC 4180); lines may also end with a line feed alone.
+/// Reads the records of a text (RFC 4180); lines may also end with a line feed,
+/// or a carriage return, alone.
 class CsvReader {
  public:
   CsvReader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
@@ -67,9 +69,12 @@ class CsvReader {
           textOfCsvField(at_ < text_.size() && text_[at_] == '"' ? quoted() : plain()));
       more = at_ < text_.size() && text_[at_] == ',';
     }
-    if (at_ < text_.size() && text_[at_] == '\r') ++at_;
-    if (at_ < text_.size() && text_[at_] != '\n') fail(line_, "text follows a closing quote");
-    ++at_;
+    const bool carriage_return = at_ < text_.size() && text_[at_] == '\r';
+    if (carriage_return) ++at_;
+    const bool line_feed = at_ < text_.size() && text_[at_] == '\n';
+    if (line_feed) ++at_;
+    if (!carriage_return && !line_feed && at_ < text_.size())
+      fail(line_, "text follows a closing quote");
     ++line_;
     return true;
   }
@@ -222,6 +227,8 @@ Annotations parseAnnotationsCsv(const std::filesystem::path& file, std::string_v
   std::set<std::string> ids;
   while (reader.next(record)) {
     const RowReader row(file, record);
+    for (std::size_t column = 0; column < kColumns.size(); ++column)
+      if (!isUtf8(row.text(column))) row.fail(column, "is not UTF-8 text: save the table as UTF-8");
     if (!ids.insert(row.text(1)).second) row.fail(1, "'" + row.text(1) + "' is given twice");
     if (row.text(0) == "point") {
       annotations.points.push_back(readPoint(row));

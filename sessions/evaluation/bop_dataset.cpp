@@ -12,6 +12,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/images/image_decoder.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/io/meshes/mesh_file.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/units.h"
 
@@ -105,7 +106,10 @@ std::map<int, fs::path> bopImages(const fs::path& scene, const std::string& sens
     std::map<int, fs::path> images;
     for (const fs::path& file : entries(scene / name))
       if (const auto number = numberOf(file.stem().string()); number && isImage(file))
-        images.emplace(*number, file);
+        if (const auto [known, is_new] = images.emplace(*number, file); !is_new)
+          throw InputError(file, "",
+                           "is image " + bopNumber(*number) + ", as is " +
+                               known->second.filename().string() + ": remove one");
     return images;
   }
   throw InputError(scene, "", "has no folder of images (" + joined(names) + ")");
@@ -122,11 +126,13 @@ fs::path bopModels(const fs::path& root) {
   throw InputError(root, "", "has no folder models with a models_info.json");
 }
 
+constexpr const char* kTargets = "test_targets_bop19.json";
+
 /// (scene, image, object) -> number of target instances; empty without a list.
 using BopTargets = std::map<std::tuple<int, int, int>, int>;
 
 std::optional<BopTargets> bopTargets(const fs::path& root) {
-  const fs::path file = root / "test_targets_bop19.json";
+  const fs::path file = root / kTargets;
   if (!fs::exists(file)) return std::nullopt;
   constexpr int kMaxId = 1 << 30;
   BopTargets targets;
@@ -135,7 +141,9 @@ std::optional<BopTargets> bopTargets(const fs::path& root) {
     const auto id = [&entry](const char* key) {
       return static_cast<int>(entry.at(key).integer(0, kMaxId));
     };
-    targets[{id("scene_id"), id("im_id"), id("obj_id")}] = id("inst_count");
+    if (!targets.emplace(std::tuple(id("scene_id"), id("im_id"), id("obj_id")), id("inst_count"))
+             .second)
+      entry.fail("the target is listed twice");
   }
   return targets;
 }
@@ -147,24 +155,28 @@ struct Model {
   std::string name;
   Station station;
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  double diagonal_m = 0.0;
 };
 
 std::map<int, Model> readModels(const fs::path& folder) {
   std::map<int, Model> models;
   const JsonDocument document(folder / "models_info.json");
-  for (const auto& [key, entry] : document.root().members()) {
-    const int number = bopImageId(key, entry);
+  for (const auto& [number, entry] : bopEntries(document.root())) {
     Model model;
     model.name = "obj_" + bopNumber(number);
     PartSource& part = model.station.parts.emplace_back();
     part.mesh = folder / (model.name + ".ply");
     part.mesh_unit = "mm";
     model.station.symmetries = readBopSymmetries(entry);
+    Eigen::Vector3d size_m;
     int i = 0;
-    for (const char* axis : {"x", "y", "z"})
-      model.centre_m[i++] = (entry.at(std::string("min_") + axis).number() +
-                             0.5 * entry.at(std::string("size_") + axis).number()) /
-                            kMillimetres;
+    for (const char* axis : {"x", "y", "z"}) {
+      size_m[i] = entry.at(std::string("size_") + axis).number() / kMillimetres;
+      model.centre_m[i] =
+          entry.at(std::string("min_") + axis).number() / kMillimetres + 0.5 * size_m[i];
+      ++i;
+    }
+    model.diagonal_m = size_m.norm();
     models.emplace(number, std::move(model));
   }
   return models;
@@ -175,10 +187,10 @@ std::map<int, std::vector<double>> readVisibility(const fs::path& file) {
   std::map<int, std::vector<double>> shares;
   if (!fs::exists(file)) return shares;
   const JsonDocument document(file);
-  for (const auto& [key, list] : document.root().members())
+  for (const auto& [id, list] : bopEntries(document.root()))
     for (const JsonReader& entry : list.elements()) {
       const auto share = entry.find("visib_fract");
-      shares[bopImageId(key, list)].push_back(share ? share->number() : 1.0);
+      shares[id].push_back(share ? share->number() : 1.0);
     }
   return shares;
 }
@@ -214,8 +226,9 @@ class Reader {
     double visible = 1.0;
   };
 
+  void requireTargets() const;
   void readScene(int scene_id, const fs::path& folder);
-  std::vector<Instance> chosen(int scene_id, int image_id, std::vector<Instance> instances) const;
+  std::vector<Instance> chosen(int scene_id, int image_id, std::vector<Instance> instances);
   void addCase(int scene_id, const BopObject& object, int repetition, const fs::path& image);
   std::string cameraOf(const Camera& camera);
   bool wants(const std::vector<int>& list, int number) const {
@@ -226,6 +239,7 @@ class Reader {
   const BopSelection& selection_;
   std::map<int, Model> models_;
   std::optional<BopTargets> targets_;
+  std::int64_t hidden_ = 0;  ///< instances that are left out as hardly visible
   Dataset dataset_;
 };
 
@@ -241,9 +255,40 @@ Dataset Reader::read() {
     if (!scenes.contains(scene)) throw InputError(split, "", "has no scene " + bopNumber(scene));
   for (const auto& [id, folder] : scenes)
     if (wants(selection_.scenes, id)) readScene(id, folder);
-  if (dataset_.cases.empty()) throw InputError(split, "", "the selection is empty");
+  requireTargets();
+  if (dataset_.cases.empty())
+    throw InputError(split, "",
+                     hidden_ == 0 ? "the selection is empty"
+                                  : "the selection is empty: " + countText(hidden_, "instance") +
+                                        " of less than 10 % visibility are left out "
+                                        "(--every-instance takes them)");
   dataset_.sha256 = digestOf(dataset_);
   return std::move(dataset_);
+}
+
+/// A target without its case would leave the challenge's rates another denominator.
+void Reader::requireTargets() const {
+  if (!targets_) return;
+  std::map<BopTargets::key_type, int> found;
+  for (const Case& dataset_case : dataset_.cases)
+    ++found[{dataset_case.bop->scene_id, dataset_case.bop->image_id, dataset_case.bop->object_id}];
+  int missing = 0;
+  std::string first;
+  for (const auto& [target, count] : *targets_) {
+    const auto& [scene, image, object] = target;
+    const auto cases = found.find(target);
+    const int lacks = count - (cases == found.end() ? 0 : cases->second);
+    if (!wants(selection_.scenes, scene) || !wants(selection_.objects, object) || lacks <= 0)
+      continue;
+    if (missing == 0)
+      first = "object " + std::to_string(object) + " in image " + std::to_string(image) +
+              " of scene " + std::to_string(scene);
+    missing += lacks;
+  }
+  if (missing > 0)
+    throw InputError(root_ / kTargets, "",
+                     countText(missing, "target instance") + " without a true pose, the first " +
+                         first + ": choose scenes (--scene), or take --every-instance");
 }
 
 void Reader::readScene(int scene_id, const fs::path& folder) {
@@ -280,14 +325,14 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
 }
 
 std::vector<Reader::Instance> Reader::chosen(int scene_id, int image_id,
-                                             std::vector<Instance> instances) const {
+                                             std::vector<Instance> instances) {
   std::erase_if(instances, [this](const Instance& instance) {
     return !wants(selection_.objects, instance.object.object_id);
   });
   if (selection_.every_instance) return instances;
   if (!targets_) {
-    std::erase_if(instances,
-                  [](const Instance& instance) { return instance.visible < kLeastVisible; });
+    hidden_ += static_cast<std::int64_t>(std::erase_if(
+        instances, [](const Instance& instance) { return instance.visible < kLeastVisible; }));
     return instances;
   }
   // Of several instances the challenge requires the most visible ones.
@@ -316,6 +361,13 @@ void Reader::addCase(int scene_id, const BopObject& object, int repetition, cons
     throw InputError(root_, "models_info.json",
                      "there is no object " + std::to_string(object.object_id) +
                          ", which is in scene " + bopNumber(scene_id));
+  constexpr double kNearest = 0.05;  // of the object's size
+  if (const double distance_m = object.image.camera_from_station.translation_m.norm();
+      distance_m < kNearest * model->second.diagonal_m)
+    throw InputError(image, "scene_gt.json",
+                     "cam_t_m2c: object " + std::to_string(object.object_id) + " is " +
+                         lengthText(distance_m) + " from the camera, at a size of " +
+                         lengthText(model->second.diagonal_m) + ": the format's unit is the mm");
   Camera camera = object.image.camera;
   if (prepareCamera(camera) != Status::kOk)
     throw InputError(image, "scene_camera.json", "cam_K cannot be a camera's");

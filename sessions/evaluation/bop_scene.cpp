@@ -129,10 +129,15 @@ void writeBopScene(const std::filesystem::path& folder, std::span<const BopObjec
 
 std::string bopNumber(int number) { return formatText("%06d", number); }
 
-int bopImageId(const std::string& key, const JsonReader& entry) {
-  const auto id = numberIn<int>(key);
-  if (!id || *id < 0) entry.fail("'" + key + "' is not a number from 0 on");
-  return *id;
+std::map<int, JsonReader> bopEntries(const JsonReader& root) {
+  std::map<int, JsonReader> entries;
+  for (const auto& [key, entry] : root.members()) {
+    const auto number = numberIn<int>(key);
+    if (!number || *number < 0) entry.fail("'" + key + "' is not a number from 0 on");
+    if (!entries.emplace(*number, entry).second)
+      entry.fail("the number " + std::to_string(*number) + " is given twice");
+  }
+  return entries;
 }
 
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder) {
@@ -143,12 +148,11 @@ std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
                                     const std::filesystem::path& truth_file) {
   std::map<int, Camera> cameras;
   const JsonDocument camera_document(camera_file);
-  for (const auto& [key, entry] : camera_document.root().members())
-    cameras[bopImageId(key, entry)] = readCameraEntry(entry);
+  for (const auto& [id, entry] : bopEntries(camera_document.root()))
+    cameras[id] = readCameraEntry(entry);
   std::vector<BopObject> bop_objects;
   const JsonDocument document(truth_file);
-  for (const auto& [key, list] : document.root().members()) {
-    const int id = bopImageId(key, list);
+  for (const auto& [id, list] : bopEntries(document.root())) {
     const auto camera = cameras.find(id);
     if (camera == cameras.end()) list.fail(camera_file.filename().string() + " has no such image");
     for (const JsonReader& entry : list.elements()) {
@@ -160,8 +164,6 @@ std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
       bop_objects.push_back(object);
     }
   }
-  std::stable_sort(bop_objects.begin(), bop_objects.end(),
-                   [](const BopObject& a, const BopObject& b) { return a.image.id < b.image.id; });
   return bop_objects;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,8 +34,9 @@ std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
 /// "000007", as BOP names scenes, images and objects.
 std::string bopNumber(int number);
 
-/// The image id in a key of such a file. InputError.
-int bopImageId(const std::string& key, const JsonReader& entry);
+/// The entries of such a file by the numbers that are their keys. InputError, also for a number
+/// that is given twice, such as "1" and "01".
+std::map<int, JsonReader> bopEntries(const JsonReader& root);
 
 /// One line of a BOP19 results file.
 struct BopResult {

@@ -50,7 +50,7 @@ std::vector<std::vector<SqlValue>> objectsOf(SqlDatabase& database) {
 
 /// Throws what the access calls for when `database` holds other objects than a results file.
 void requireOwnObjects(SqlDatabase& database) {
-  SqlDatabase model(":memory:", SqlAccess::kWrite);
+  SqlDatabase model({}, SqlAccess::kWrite);
   model.execute(schema(versionOf(database)));
   const auto wanted = objectsOf(model);
   const auto found = objectsOf(database);

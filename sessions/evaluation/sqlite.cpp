@@ -82,7 +82,10 @@ SqlDatabase::SqlDatabase(const std::filesystem::path& file, SqlAccess access)
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
     fail("it is a folder, a pipe or a device, not a file");
   if (access == SqlAccess::kRead) noteInput(file, FileUse::kResults);
-  open(file, flagsOf(access));
+  // Of a relative name SQLite takes "file:..." for an address and ":memory:" for no file.
+  const std::filesystem::path whole =
+      file.empty() ? std::filesystem::path(":memory:") : std::filesystem::absolute(file, error);
+  open(whole.string(), flagsOf(access));
   if (access == SqlAccess::kWrite) return;
   execute("PRAGMA query_only = 1");
   const int first_read =

@@ -151,7 +151,7 @@ JudgedFiles judgeFiles(const CaseFiles& files) {
 SessionCase withInputFile(SessionCase session_case, InputKind kind, const fs::path& file,
                           const std::string& mesh_unit) {
   if (kind == InputKind::kImage) {
-    session_case.image = imageInput(file, {});
+    session_case.image = imageInput(file, session_case.image.eight_bit);
   } else if (kind == InputKind::kCamera) {
     setCamera(session_case, readChosenCamera(file, {}));
   } else if (kind == InputKind::kMesh) {

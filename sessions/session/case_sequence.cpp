@@ -36,7 +36,7 @@ DatasetFacts sequenceFacts(const SequenceOrder& order, std::int64_t frames) {
   facts.dataset = std::filesystem::absolute(order.images).lexically_normal().string();
   facts.cases = frames;
   facts.version = kVersion;
-  nlohmann::ordered_json inputs = {{"images", facts.dataset},
+  nlohmann::ordered_json inputs = {{"images", utf8Text(facts.dataset)},
                                    {"inputs", inputsDigest(without_image)},
                                    {"motion", toJson(order.motion)},
                                    {"rule", ruleJson(order.session_case.image.eight_bit)}};
@@ -105,6 +105,7 @@ CaseSequence::CaseSequence(const SequenceOrder& order, SequenceInputs inputs,
       total_(source_->count()),
       results_(order.results),
       writer_(order.results, sequenceFacts(order, total_)),
+      notes_(source_->notes()),
       sequence_(std::move(inputs)) {
   writer_.admit(methodFacts(kWhs, order.profile, order.options));
   earlier_ = earlierResults(order.results);
@@ -123,6 +124,7 @@ std::optional<RunResult> CaseSequence::next(const std::stop_token& stop) {
   const std::optional<Frame> frame = ahead_.get();
   if (stop.stop_requested()) return std::nullopt;
   if (!frame) {
+    notes_ = source_->notes();
     writer_.end();
     return std::nullopt;
   }

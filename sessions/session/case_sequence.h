@@ -59,6 +59,8 @@ class CaseSequence {
   std::int64_t localized() const { return localized_; }
   /// Of the frames that this object localized, with reading and storing; 0 before the first.
   double framesPerSecond() const;
+  /// Of the source, for the operator; complete when next() has returned nothing.
+  const std::vector<std::string>& notes() const { return notes_; }
   /// The frames so far.
   const Sequence& sequence() const { return sequence_; }
 
@@ -71,6 +73,7 @@ class CaseSequence {
   std::int64_t total_;
   std::filesystem::path results_;
   ResultsWriter writer_;
+  std::vector<std::string> notes_;
   std::map<std::string, RunResult> earlier_;  ///< by the frame's name
   std::set<std::int64_t> places_;             ///< of the earlier ones in the sequence, from 0
   Sequence sequence_;

@@ -49,6 +49,13 @@ void flagCamera(const Camera& camera, CameraSheet& sheet) {
     sheet.flags.push_back(
         {"camera_aspect",
          "fx and fy differ by " + fixedText(100.0 * std::abs(aspect - 1.0), 1) + " %"});
+  constexpr double kWidestLens_deg = 130.0;
+  const bool fisheye =
+      camera.model == CameraModel::kKannalaBrandt || camera.model == CameraModel::kCahvore;
+  if (const double wide_deg = std::max(sheet.field_of_view_x_deg, sheet.field_of_view_y_deg);
+      !fisheye && wide_deg > kWidestLens_deg)
+    sheet.flags.push_back({"camera_wide", "a field of view of " + fixedText(wide_deg, 0) +
+                                              " deg: check that fx and fy are in pixels"});
   Eigen::Vector3d ray;
   for (const double x : {0.0, right})
     for (const double y : {0.0, bottom}) {

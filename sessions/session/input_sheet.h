@@ -37,7 +37,7 @@ struct CameraSheet {
   double field_of_view_x_deg = 0.0;  ///< along the row of the principal point; not finite where a
   double field_of_view_y_deg = 0.0;  ///< pixel has no ray
   std::vector<std::string> lines;
-  std::vector<RedFlag> flags;  ///< camera_off_centre, camera_aspect, camera_corners
+  std::vector<RedFlag> flags;  ///< camera_off_centre, _aspect, _wide, _corners
 };
 CameraSheet cameraSheet(const Camera& camera);
 

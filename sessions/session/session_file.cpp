@@ -63,6 +63,23 @@ void readAnnotationsOf(const JsonReader& json, Session& session) {
   }
 }
 
+/// The first text that is not UTF-8, behind its place: ".cases[0].image.file: 'caf\xE9.png'"; ""
+/// where all are.
+std::string foreignText(const ordered_json& json) {
+  if (json.is_string()) {
+    const auto text = json.get<std::string>();
+    return isUtf8(text) ? "" : ": '" + utf8Text(text) + "'";
+  }
+  if (!json.is_structured()) return "";
+  for (const auto& item : json.items()) {
+    if (!isUtf8(item.key())) return ": '" + utf8Text(item.key()) + "'";
+    const std::string found = foreignText(item.value());
+    if (!found.empty())
+      return (json.is_array() ? "[" + item.key() + "]" : "." + item.key()) + found;
+  }
+  return "";
+}
+
 }  // namespace
 
 template <class Archive, ConstOr<OptionChange> Self>
@@ -258,7 +275,8 @@ std::string sessionText(const Session& session, const fs::path& file) {
   try {
     (void)json.dump();  // strict: text that is not UTF-8 would be written as something else
   } catch (const nlohmann::json::exception&) {
-    throw OutputError(file, "a name or comment in the session is not UTF-8 text");
+    throw OutputError(file,
+                      foreignText(json).substr(1) + " is not UTF-8 text: rename or retype it");
   }
   return prettyJson(json);
 }

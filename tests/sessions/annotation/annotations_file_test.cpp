@@ -72,6 +72,32 @@ TEST(AnnotationsCsv, RoundTripIsExact) {
   }
 }
 
+/// As spreadsheets write a table: with a byte order mark, or with carriage returns alone.
+TEST(AnnotationsCsv, TableOfASpreadsheet_IsRead) {
+  const TemporaryFolder folder;
+  Random random(12);
+  Annotations annotations = test::randomAnnotations(random, 3, 0);
+  for (PointPair& point : annotations.points) point.comment.clear();
+  std::string text = annotationsCsv(annotations);
+  const auto file = folder.write("marks.csv", "\xEF\xBB\xBF" + text);
+  EXPECT_EQ(readAnnotations(file), annotations);
+  std::erase(text, '\n');
+  EXPECT_EQ(parseAnnotationsCsv("marks.csv", text), annotations);
+}
+
+TEST(AnnotationsCsv, OtherEncodings_AreNamed) {
+  const TemporaryFolder folder;
+  Random random(13);
+  Annotations annotations = test::randomAnnotations(random, 2, 0);
+  annotations.points[1].comment = "caf\xE9";
+  const auto file = folder.write("marks.csv", annotationsCsv(annotations));
+  EXPECT_THAT(folder.message([&] { (void)readAnnotations(file); }),
+              testing::HasSubstr("is not UTF-8 text: save the table as UTF-8"));
+  folder.write("marks.csv", std::string_view("\xFF\xFEk\0i\0", 6));
+  EXPECT_EQ(folder.message([&] { (void)readAnnotations(file); }),
+            "marks.csv: is UTF-16 or UTF-32 text: save it as UTF-8");
+}
+
 TEST(AnnotationsCsv, TextThatLooksLikeAFormulaIsTextInASpreadsheetAndComesBack) {
   Random random(14);
   Annotations annotations = test::randomAnnotations(random, 3, 1);

@@ -150,6 +150,46 @@ TEST_F(BopDataset, TakesTheTargetsOfTheChallenge) {
   EXPECT_EQ(idsOf().size(), 3u);  // without the one of which a twentieth is seen
 }
 
+/// What does not fit is not left out: rates would have another denominator.
+TEST_F(BopDataset, TargetsWithoutATruePose_AreRefused) {
+  const std::string known = R"({"scene_id": 2, "im_id": 3, "obj_id": 7, "inst_count": 2})";
+  const auto targets = [&](const std::string& more) {
+    folder_.write("test_targets_bop19.json", "[" + known + more + "]");
+    return errorOf();
+  };
+  EXPECT_EQ(targets(""), "(nothing)");
+  EXPECT_EQ(
+      targets(R"(, {"scene_id": 2, "im_id": 9, "obj_id": 1, "inst_count": 1},
+                         {"scene_id": 7, "im_id": 3, "obj_id": 7, "inst_count": 2})"),
+      "test_targets_bop19.json: 3 target instances without a true pose, the first object 1 in "
+      "image 9 of scene 2: choose scenes (--scene), or take --every-instance");
+  EXPECT_THAT(targets(R"(, {"scene_id": 2, "im_id": 0, "obj_id": 1, "inst_count": 2})"),
+              HasSubstr("1 target instance without a true pose, the first object 1 in image 0"));
+  EXPECT_EQ(idsOf({.objects = {7}}).size(), 2u);
+  EXPECT_EQ(idsOf({.every_instance = true}).size(), 4u);
+  EXPECT_THAT(targets("," + known), HasSubstr("[1]: the target is listed twice"));
+}
+
+TEST_F(BopDataset, AmbiguousOrHiddenEntries_AreNamed) {
+  folder_.write("test/000002/gray/3.jpg", "x");
+  EXPECT_EQ(errorOf(), "test/000002/gray/3.jpg: is image 000003, as is 000003.png: remove one");
+  std::filesystem::remove(folder_ / "test/000002/gray/3.jpg");
+  folder_.write("test/000002/scene_gt_info.json",
+                R"({"0": [{"visib_fract": -1}],
+                    "3": [{"visib_fract": -1}, {"visib_fract": -1}, {"visib_fract": 0.09}]})");
+  EXPECT_EQ(errorOf(),
+            "test: the selection is empty: 4 instances of less than 10 % visibility are left out "
+            "(--every-instance takes them)");
+  std::filesystem::remove(folder_ / "test/000002/scene_gt_info.json");
+  folder_.write("test/000002/scene_gt.json",
+                R"({"0": [{"cam_R_m2c": [1,0,0,0,-1,0,0,0,-1], "cam_t_m2c": [0, 0, 0.4],
+                           "obj_id": 1}]})");
+  EXPECT_THAT(errorOf(), HasSubstr("cam_t_m2c: object 1 is 0.4 mm from the camera, at a size of "));
+  folder_.write("test/000002/scene_gt.json",
+                std::string(R"({"0": [)") + kPoseOf1 + "], \"00\": [" + kPoseOf7 + "]}");
+  EXPECT_THAT(errorOf(), HasSubstr("the number 0 is given twice"));
+}
+
 TEST_F(BopDataset, ReadsOneOfSeveralSensors) {
   for (const char* name : {"scene_camera", "scene_gt"})
     std::filesystem::rename(folder_ / ("test/000002/" + std::string(name) + ".json"),

@@ -245,6 +245,24 @@ TEST_F(ResultsFile, LeavesOtherFilesAndThoseOfAnotherRunAlone) {
   EXPECT_THROW(ResultsWriter(folder_ / "no/such/r.sqlite", sampleDataset()), OutputError);
 }
 
+/// SQLite would take the first for an address, and the second for no file.
+TEST_F(ResultsFile, NameWithAColon_IsThatOfAFile) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  for (const char* name : {"file:q.sqlite", ":memory:"}) {
+    {
+      ResultsWriter writer(name, sampleDataset());
+      writer.admit(sampleMethod("whs"));
+      writer.begin(BatchRun{});
+      writer.add(sampleRun());
+      writer.end();
+    }
+    EXPECT_EQ(readResults(name).runs.size(), 1u) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  }
+  std::filesystem::current_path(before);
+}
+
 TEST_F(ResultsFile, ChangedByAnotherProgram_IsRefusedByReadersAndWriters) {
   const auto change = [this](const char* sql) {
     std::filesystem::remove(file_);

@@ -86,6 +86,10 @@ TEST(WithInputFile, TakesTheFileInPlaceOfTheFormerOne) {
   const SessionCase other_image = withInputFile(os, InputKind::kImage, bc / "image.png");
   EXPECT_EQ(other_image.image.source.file, bc / "image.png");
   EXPECT_NE(other_image.image.pixels_sha256, os.image.pixels_sha256);
+  SessionCase with_levels = os;
+  with_levels.image.eight_bit.levels = GrayLevels{10, 200};
+  EXPECT_EQ(withInputFile(with_levels, InputKind::kImage, bc / "image.png").image.eight_bit,
+            with_levels.image.eight_bit);
   EXPECT_EQ(withInputFile(os, InputKind::kMesh, bc / "model.ply", "m").parts.front().source.mesh,
             bc / "model.ply");
   SessionCase nudged = os;

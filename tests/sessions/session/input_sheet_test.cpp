@@ -76,6 +76,10 @@ TEST(InputSheet, FlagsWhatIsProbablyWrong) {
       {"camera_size", [](SessionCase& c) { c.camera.width += 2; }},
       {"camera_off_centre", [](SessionCase& c) { c.camera.cx += 400.0; }},
       {"camera_aspect", [](SessionCase& c) { c.camera.fy *= 1.1; }},
+      {"camera_wide",
+       [](SessionCase& c) {
+         c.camera = makeCamera(CameraModel::kPinhole, c.camera.width, c.camera.height, 35.0);
+       }},
       {"camera_corners", [](SessionCase& c) {
          c.camera = makeCamera(CameraModel::kBrownConrady, c.camera.width, c.camera.height,
                                c.camera.fx, {-3.0, 0.0, 0.0, 0.0});

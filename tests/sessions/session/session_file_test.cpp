@@ -234,7 +234,8 @@ TEST(SessionFile, RefusesToWriteWhatIsNotText) {
   session_case.image.source.file = "/data/\xff.png";
   EXPECT_THAT(
       folder.message([&] { writeSessionFile(folder / "s.json", withCase({}, session_case)); }),
-      HasSubstr("is not UTF-8"));
+      AllOf(HasSubstr("s.json: cases[0].image"),
+            HasSubstr("\\xFF.png' is not UTF-8 text: rename or retype it")));
   EXPECT_EQ(folder.read("s.json"), "old");
 }
 
