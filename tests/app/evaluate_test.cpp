@@ -142,6 +142,21 @@ TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
       EXPECT_EQ(resumed[i][member], undisturbed[i][member]);
 }
 
+TEST_F(WhsEvaluate, Signal_EndsItWithAllThatIsDoneWritten) {
+  const Arguments arguments =
+      evaluateArguments(dataset_, with({"--reseed", "50", "--jobs", "2"}, kQuick));
+  for (const int signal : {SIGTERM, SIGPIPE}) {
+    std::filesystem::remove(results_);
+    const EndedWhs ended = endWhsAfter(arguments, signal, results_, 2);
+    ASSERT_TRUE(WIFEXITED(ended.status)) << signal;
+    EXPECT_EQ(WEXITSTATUS(ended.status), 128 + signal);
+    EXPECT_GE(ended.held, 2);
+    EXPECT_LT(ended.held, 102);
+    EXPECT_EQ(lines().size(), static_cast<std::size_t>(ended.held));
+    EXPECT_FALSE(std::filesystem::exists(results_ + ".lock"));
+  }
+}
+
 TEST_F(WhsEvaluate, MergesShards) {
   const Arguments evaluate = with({"evaluate", "--dataset", dataset_}, kQuick);
   Arguments merge = {"merge", folder_ / "merged.sqlite"};
