@@ -124,6 +124,42 @@ void compareFiles(const CaseFiles& files, const ReadFiles& read, JudgedFiles& ju
   if (concern) judged[static_cast<std::size_t>(concern->kind)].problem = concern->text;
 }
 
+/// What withInputFile() sets for this kind.
+void takeInput(SessionCase& to, const SessionCase& from, InputKind kind) {
+  switch (kind) {
+    case InputKind::kImage:
+      to.image = from.image;
+      return;
+    case InputKind::kCamera:
+      to.camera = from.camera;
+      to.camera_reference = from.camera_reference;
+      to.calibration_sigma = from.calibration_sigma;
+      to.camera_covariance = from.camera_covariance;
+      return;
+    case InputKind::kMesh:
+      to.parts.front().source.mesh = from.parts.front().source.mesh;
+      to.parts.front().source.mesh_unit = from.parts.front().source.mesh_unit;
+      to.parts.front().sha256 = from.parts.front().sha256;
+      return;
+    case InputKind::kSeed:
+      to.has_seed = from.has_seed;
+      to.camera_from_station_seed = from.camera_from_station_seed;
+      to.station_frame = from.station_frame;
+      to.uncertainty = from.uncertainty;
+      return;
+  }
+}
+
+/// Whether two cases have the same input of this kind, and read a file of it alike.
+bool sameInput(const SessionCase& a, const SessionCase& b, InputKind kind) {
+  if (kind == InputKind::kSeed &&
+      !(a.camera_reference == b.camera_reference && a.frames == b.frames))
+    return false;
+  SessionCase with_input = a;
+  takeInput(with_input, b, kind);
+  return with_input == a;
+}
+
 }  // namespace
 
 bool statesUnit(const fs::path& mesh) {
@@ -168,6 +204,16 @@ SessionCase withInputFile(SessionCase session_case, InputKind kind, const fs::pa
     session_case.camera_from_station_working.reset();
   }
   return session_case;
+}
+
+std::optional<Session> withInput(const Session& session, InputKind kind, const SessionCase& before,
+                                 const SessionCase& changed) {
+  const SessionCase* found = session.findCase(before.id);
+  if (found == nullptr || !sameInput(*found, before, kind)) return std::nullopt;
+  return withChanged(session, before.id, [&](SessionCase& session_case) {
+    takeInput(session_case, changed, kind);
+    if (kind == InputKind::kSeed) session_case.camera_from_station_working.reset();
+  });
 }
 
 }  // namespace boresight::sessions

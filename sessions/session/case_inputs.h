@@ -50,4 +50,10 @@ JudgedFiles judgeFiles(const CaseFiles& files);
 SessionCase withInputFile(SessionCase session_case, InputKind kind,
                           const std::filesystem::path& file, const std::string& mesh_unit = "");
 
+/// The session with one input of a case taken from `changed`, which withInputFile() returned for
+/// `before`; the rest of the case stays as it is in the session. Empty when the session has no such
+/// case, or that input of the case, or what the file was read by, differs from `before`.
+std::optional<Session> withInput(const Session& session, InputKind kind, const SessionCase& before,
+                                 const SessionCase& changed);
+
 }  // namespace boresight::sessions

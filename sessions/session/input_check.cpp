@@ -284,6 +284,19 @@ Session acceptingInputs(const Session& session, const std::string& case_id) {
   });
 }
 
+Session withAccepted(const Session& session, const SessionCase& before,
+                     const SessionCase& accepted) {
+  return withChanged(session, before.id, [&](SessionCase& now) {
+    if (now.image == before.image) now.image = accepted.image;
+    for (std::size_t i = 0; i < std::min(now.parts.size(), before.parts.size()); ++i)
+      if (now.parts[i].source.mesh == before.parts[i].source.mesh &&
+          now.parts[i].sha256 == before.parts[i].sha256)
+        now.parts[i].sha256 = accepted.parts[i].sha256;
+    if (now.ignore == before.ignore) now.ignore = accepted.ignore;
+    if (now.onboard_record == before.onboard_record) now.onboard_record = accepted.onboard_record;
+  });
+}
+
 GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit) {
   GrayImage read = readOrName(image, eight_bit);
   if (read.file_sha256 == image.source.sha256) return read;

@@ -49,6 +49,11 @@ Session relinked(const Session& session, const std::vector<Relink>& relinks);
 /// cannot be read, or no longer has a transform.
 Session acceptingInputs(const Session& session, const std::string& case_id);
 
+/// The session with the hashes of `accepted`, which acceptingInputs() returned for `before`, for
+/// those files of the case that are still the same files as in `before`.
+Session withAccepted(const Session& session, const SessionCase& before,
+                     const SessionCase& accepted);
+
 /// Reads the image by `eight_bit`, which may differ from the session's. InputError when it cannot
 /// be read, or its files differ from those of the session.
 GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit);

@@ -131,7 +131,7 @@ std::string faultText(const LocalizationTrace& trace) {
   if (trace.fault == Status::kInvalidOption &&
       options.loop.correction_point == CorrectionPoint::kEndEffector)
     return "loop.correction_point is end_effector, but no end effector is known: state "
-           "camera_from_end_effector in dataset.json, or choose another point";
+           "camera_from_end_effector of the case, or choose another point";
   const std::string text = std::string("the run stopped: ") + statusText(trace.fault);
   if (trace.fault == Status::kCapacityExceeded)
     return text + formatText(

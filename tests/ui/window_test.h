@@ -132,6 +132,13 @@ class WindowTest : public ::testing::Test {
     QTest::keyClick(&window_, Qt::Key_F5);
     return wait([&] { return window_.document().session().runs.size() == runs && resting(); });
   }
+  /// Whether this case is shown, with all that belongs to it. Until it is read, none is.
+  bool showsCase(const std::string& id) {
+    return wait([&] {
+      const auto& shown = window_.state().currentCase();
+      return shown && shown->source.id == id && resting();
+    });
+  }
   /// Closes the session without saving, and opens it again.
   bool reopen() {
     window_.document().close();
@@ -168,6 +175,7 @@ class WindowTest : public ::testing::Test {
     QDropEvent event(QPointF(600, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QCoreApplication::sendEvent(&window_, &event);
     EXPECT_TRUE(event.isAccepted());
+    QCoreApplication::processEvents();  // the files are taken after the event
   }
 
   /// A name for another session next to those that there are.

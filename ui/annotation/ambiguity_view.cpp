@@ -86,8 +86,8 @@ void AmbiguityView::showImage() {
 
 void AmbiguityView::drawEdges(const std::array<Pose, 2>& camera_from_station) {
   using Edges = std::array<std::vector<sessions::BandPiece>, 2>;
-  runner_.start(
-      QStringLiteral("draw ambiguous poses"),
+  runner_.replace(
+      drawing_,
       [mesh = snapper_.mesh(), camera = state_.currentCase()->source.camera,
        camera_from_station](const std::stop_token&) {
         Edges edges;
@@ -99,7 +99,8 @@ void AmbiguityView::drawEdges(const std::array<Pose, 2>& camera_from_station) {
       [this](const Edges& edges) {
         for (std::size_t i = 0; i < edges.size(); ++i)
           pictures()[i]->setPart(LayerId::kAnnotationBand, &Layer::marks, bandSigns(edges[i]));
-      });
+      },
+      [this](const QString& message) { ui_.otherCaption->setText(message); });
 }
 
 void AmbiguityView::zoomToAnnotations() {

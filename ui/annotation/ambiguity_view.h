@@ -45,6 +45,7 @@ class AmbiguityView : public QWidget {
   std::weak_ptr<const sessions::LoadedCase> image_of_;  ///< the case in the pictures
   QRectF area_;  ///< a square round the annotations in the image, px
   TaskRunner runner_;
+  TaskKind drawing_;
   Ui::AmbiguityView ui_;
 };
 

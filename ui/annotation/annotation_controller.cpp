@@ -18,8 +18,6 @@ using sessions::Annotations;
 using sessions::LinePair;
 using sessions::PointPair;
 
-const QString kSolving = QStringLiteral("solve annotations");
-
 RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQuestion& asked) {
   RoundAnswer round_answer = {round.by, round.time, {}, {}};
   if (asked.blind) return round_answer;
@@ -66,7 +64,6 @@ AnnotationController::AnnotationController(Document& document, ViewState& state,
   pause_.setSingleShot(true);
   pause_.setInterval(kPause_ms);
   connect(&pause_, &QTimer::timeout, this, &AnnotationController::finishMove);
-  connect(&runner_, &TaskRunner::failed, this, &AnnotationController::told);
   connect(&document_, &Document::aboutToChange, this, &AnnotationController::finishMove);
   connect(&document_, &Document::opened, this, &AnnotationController::documentOpened);
   connect(&document_, &Document::changed, this, &AnnotationController::showDocument);
@@ -125,7 +122,7 @@ void AnnotationController::showDocument() {
     selected_.clear();
     answer_ = {};
     asked_.reset();
-    runner_.cancel(kSolving);
+    runner_.cancel(solving_);
   }
   const auto& annotations = document_.session().annotations;
   const auto found = annotations.find(id);
@@ -182,9 +179,10 @@ void AnnotationController::askIfChanged(bool anyway) {
     state_.setBlind(true);
   }
   Q_EMIT solutionChanged();
-  runner_.start(
-      kSolving, [question = std::move(current)](const std::stop_token&) { return solve(question); },
-      [this](const AnnotationAnswer& answer) { take(answer); });
+  runner_.replace(
+      solving_, [question = std::move(current)](const std::stop_token&) { return solve(question); },
+      [this](const AnnotationAnswer& answer) { take(answer); },
+      reportTo(this, &AnnotationController::told));
 }
 
 void AnnotationController::take(const AnnotationAnswer& answer) {

@@ -200,7 +200,8 @@ class AnnotationController : public QObject {
   double sigma_px_ = kSigma_px;
   std::optional<std::filesystem::path> landmarks_file_;
   std::vector<sessions::Landmark> landmarks_;
-  TaskRunner runner_;  ///< solves; only the newest request is used
+  TaskRunner runner_;
+  TaskKind solving_;
 };
 
 }  // namespace boresight::ui

@@ -283,11 +283,15 @@ void AnnotationPanel::addLinks(QMenu& menu, const sessions::SessionCase& shown,
 }
 
 void AnnotationPanel::askForPose(const std::string& other_id) {
+  const CaseOpening seen = state_.opening();
   PastePoseDialog dialog(QGuiApplication::clipboard()->text(), this);
   dialog.setWindowTitle(
       tr("Pose of %1 from the shown camera: p_other = R p_shown + t").arg(fromText(other_id)));
-  if (dialog.exec() == QDialog::Accepted && dialog.parsed().valid)
+  if (dialog.exec() != QDialog::Accepted || !dialog.parsed().valid) return;
+  if (seen == state_.opening())
     controller_.linkCase(other_id, dialog.parsed().camera_from_station);
+  else
+    Q_EMIT failed(leftText(seen));
 }
 
 AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& controller,
@@ -460,11 +464,16 @@ void AnnotationPanel::fillRounds() {
 }
 
 void AnnotationPanel::askForName() {
+  const CaseOpening seen = state_.opening();
   bool accepted = false;
   const QString name =
       QInputDialog::getText(this, tr("Set annotations aside"), tr("Name of the annotator"),
                             QLineEdit::Normal, qEnvironmentVariable("USER"), &accepted);
-  if (accepted) controller_.putAside(name);
+  if (!accepted) return;
+  if (seen == state_.opening())
+    controller_.putAside(name);
+  else
+    Q_EMIT failed(leftText(seen));
 }
 
 /// Arrows move the chosen annotation as they do in the image, with Ctrl they go to other rows.

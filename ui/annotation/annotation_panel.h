@@ -60,6 +60,8 @@ class AnnotationPanel : public QWidget {
   void saveLandmarksRequested();
   /// Requests the keyboard focus for the image.
   void imageRequested();
+  /// The case of a dialog is no longer shown; one sentence.
+  void failed(const QString& message);
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

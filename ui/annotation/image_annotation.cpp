@@ -149,14 +149,14 @@ void ImageAnnotation::askForBand() {
                       solution->result.solution && !controller_.stale() && snapper_.mesh();
   if (!wanted) {
     band_of_.reset();
-    runner_.cancel(QStringLiteral("band"));
+    runner_.cancel(drawing_);
     view_.setPart(LayerId::kAnnotationBand, &Layer::marks, {});
     return;
   }
   if (band_of_ == solution) return;
   band_of_ = solution;
-  runner_.start(
-      QStringLiteral("band"),
+  runner_.replace(
+      drawing_,
       [solution, mesh = snapper_.mesh()](const std::stop_token&) {
         const sessions::AnnotationsSolution& solved = *solution->result.solution;
         const sessions::AnnotatedView& view = solution->annotations.views.front();
@@ -166,7 +166,8 @@ void ImageAnnotation::askForBand() {
       [this, solution](const Band& band) {
         if (band_of_ == solution)
           view_.setPart(LayerId::kAnnotationBand, &Layer::marks, bandSigns(band));
-      });
+      },
+      reportTo(this, &ImageAnnotation::failed));
 }
 
 void ImageAnnotation::lookThroughLoupe() {

@@ -32,6 +32,9 @@ class ImageAnnotation : public QObject {
   double magnification() const { return magnification_; }
   void setMagnification(double magnification);
 
+ Q_SIGNALS:
+  void failed(const QString& message);
+
  private:
   using Band = std::vector<sessions::BandPiece>;
 
@@ -59,6 +62,7 @@ class ImageAnnotation : public QObject {
   double magnification_ = 40.0;
   std::vector<LayerId> hidden_;  ///< while a round is blind
   TaskRunner runner_;
+  TaskKind drawing_;  ///< the band
 };
 
 }  // namespace boresight::ui

@@ -11,7 +11,6 @@ namespace boresight::ui {
 
 StationSnapper::StationSnapper(ViewState& state, QObject* parent) : QObject(parent), state_(state) {
   state_.onChange(ViewChange::kCase, this, &StationSnapper::takeCase);
-  connect(&runner_, &TaskRunner::failed, this, &StationSnapper::failed);
   takeCase();
 }
 
@@ -21,12 +20,11 @@ void StationSnapper::takeCase() {
       sessions::sameScene(before->source, case_->source))
     return;  // an edit left the mesh alone
   mesh_.reset();
-  const QString key = QStringLiteral("mesh");
-  if (!case_) runner_.cancel(key);
+  if (!case_) runner_.cancel(reading_);
   Q_EMIT meshChanged();
   if (!case_) return;
-  runner_.start(
-      key,
+  runner_.replace(
+      reading_,
       [searched_case = case_](const std::stop_token&) {
         // The snapper points into the mesh of the case; the deleter's copy keeps the case alive.
         return MeshPtr(new sessions::MeshSnapper(searched_case->scene.view()),
@@ -35,7 +33,8 @@ void StationSnapper::takeCase() {
       [this](MeshPtr mesh) {
         mesh_ = std::move(mesh);
         Q_EMIT meshChanged();
-      });
+      },
+      reportTo(this, &StationSnapper::failed));
 }
 
 std::optional<Eigen::Vector3d> StationSnapper::surfaceAt(const Camera& camera,

@@ -49,6 +49,7 @@ class StationSnapper : public QObject {
   ViewState::CasePtr case_;
   MeshPtr mesh_;
   TaskRunner runner_;
+  TaskKind reading_;
 };
 
 }  // namespace boresight::ui

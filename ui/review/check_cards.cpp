@@ -59,9 +59,9 @@ QWidget* CheckCards::cardOf(const sessions::Check& check) {
   ui.waiver->setAccessibleName(tr("Reason to waive '%1'").arg(title));
   ui.showCheck->setIcon(iconOf(Icon::kSearch));
   ui.showCheck->setAccessibleName(tr("Show what '%1' comes from").arg(title));
-  connect(ui.waiver, &QLineEdit::editingFinished, this, [this, reason = ui.waiver, id = check.id] {
+  connect(ui.waiver, &QLineEdit::editingFinished, this, [this, reason = ui.waiver, check] {
     reason->setModified(false);
-    Q_EMIT reasonEdited(id, reason->text().trimmed());
+    Q_EMIT reasonEdited(check, reason->text().trimmed());
   });
   connect(
       ui.showCheck, &QPushButton::clicked, this,

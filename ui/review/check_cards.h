@@ -37,7 +37,8 @@ class CheckCards : public QWidget {
   void setChecks(const std::vector<FailedCheck>& failed, bool current);
 
  Q_SIGNALS:
-  void reasonEdited(const std::string& check_id, const QString& reason);
+  /// For the check as its card shows it.
+  void reasonEdited(const boresight::sessions::Check& check, const QString& reason);
   /// Requests to show the source of the figure.
   void showRequested(const std::string& check_id);
 

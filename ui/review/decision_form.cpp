@@ -183,23 +183,26 @@ ReviewController::Act DecisionForm::nextStep() const {
 void DecisionForm::showWhatIsPossible() {
   refusal_.clear();
   overruling_.reset();
+  // A row of whole words has room for what can be decided now, and not for all that ever can.
+  const auto history = controller_.history();  // the newest first
+  const bool decided = !history.empty() && history.front()->verdict != Verdict::kReopened;
+  ui_.takeBack->setVisible(decided);
+  ui_.approve->setVisible(decided && controller_.settings().second_person);
   const sessions::Signature who = signature();
+  const Act next = nextStep();
+  obstacle_.clear();
   for (const auto& [act, each] : buttons_) {
-    const QString reason = controller_.obstacle(act, who);
+    // Each obstacle is a decision that is tried: only of what can be seen.
+    const bool needed = act == next || each->isVisibleTo(this);
+    const QString reason = needed ? controller_.obstacle(act, who) : tr("there is no decision");
     each->setEnabled(reason.isEmpty());
     each->setToolTip(reason.isEmpty()
                          ? tips_[act]
                          : tr("%1. Not available: %2").arg(tips_[act], sentence(reason)));
+    if (act == next && act != Act::kTakeBack) obstacle_ = sentence(reason);
   }
   ui_.validateNext->setEnabled(ui_.validate->isEnabled());
-  // A row of whole words has room for what can be decided now, and not for all that ever can.
-  const auto history = controller_.history();  // the newest first
-  const bool decided = !history.empty() && history.front()->verdict != Verdict::kReopened;
   ui_.validateNext->setVisible(!decided && controller_.hasOtherCases());
-  ui_.takeBack->setVisible(decided);
-  ui_.approve->setVisible(decided && controller_.settings().second_person);
-  const Act next = nextStep();
-  obstacle_ = next == Act::kTakeBack ? QString() : sentence(controller_.obstacle(next, who));
   showReading();
 }
 

@@ -11,16 +11,14 @@
 #include "ui/state/document.h"
 
 namespace boresight::ui {
-namespace {
-
-const QString kReviewKey = QStringLiteral("onboard record");
-const QString kCompareKey = QStringLiteral("compare with onboard record");
-
-}  // namespace
 
 OnboardController::OnboardController(Document& document, ViewState& state, TaskRunner& tasks)
     : document_(document), state_(state), tasks_(tasks) {
-  state_.onChange(ViewChange::kCase, this, &OnboardController::caseChanged);
+  state_.onChange(ViewChange::kOtherCase, this, [this] {
+    ground_.reset();
+    ground_case_.reset();
+  });
+  state_.onChange(ViewChange::kCase, this, &OnboardController::readAgain);
   state_.onChange(ViewChange::kSnapshot, this, &OnboardController::snapshotChanged);
 }
 
@@ -35,20 +33,10 @@ bool OnboardController::showsOnboard() const {
   return state_.snapshot() && state_.snapshot()->replayed;
 }
 
-void OnboardController::caseChanged() {
-  const ViewState::CasePtr& loaded_case = state_.currentCase();
-  const std::string id = loaded_case ? loaded_case->source.id : std::string();
-  if (std::exchange(case_id_, id) != id) {
-    ground_.reset();
-    ground_case_.reset();
-  }
-  readAgain();
-}
-
 /// Reads the record after any edit of the case, since the replay depends on all of its inputs.
 void OnboardController::readAgain() {
   const ViewState::CasePtr loaded_case = state_.currentCase();
-  tasks_.cancel(kCompareKey);
+  tasks_.cancel(comparing_);
   comparison_.reset();
   const auto attached = loaded_case ? loaded_case->source.onboard_record : std::nullopt;
   const bool another = read_ != attached;
@@ -59,9 +47,9 @@ void OnboardController::readAgain() {
     if (showsOnboard()) showGround();
   }
   Q_EMIT changed();
-  if (!attached) return tasks_.cancel(kReviewKey);
-  tasks_.start(
-      kReviewKey,
+  if (!attached) return tasks_.cancel(reading_);
+  tasks_.replace(
+      reading_,
       [loaded_case, file = *attached](const std::stop_token& stop) -> ReviewPtr {
         return sessions::reviewRecord(file.file, file.sha256, loaded_case->problem(), stop);
       },
@@ -113,11 +101,11 @@ QString OnboardController::whyNotCompared() const {
 }
 
 void OnboardController::compareAgain() {
-  tasks_.cancel(kCompareKey);
+  tasks_.cancel(comparing_);
   comparison_.reset();
   if (!review_ || !ground_ || !ground_->finished || !groundIsOfTheCase()) return;
-  tasks_.start(
-      kCompareKey,
+  tasks_.replace(
+      comparing_,
       [review = review_, run = ground_, one = state_.currentCase()](const std::stop_token&) {
         return std::make_shared<const sessions::RecordComparison>(
             sessions::compareWithGround(*review, *run, one->problem()));
@@ -125,15 +113,17 @@ void OnboardController::compareAgain() {
       [this](ComparisonPtr comparison_ptr) {
         comparison_ = std::move(comparison_ptr);
         Q_EMIT changed();
-      });
+      },
+      reportTo(this, &OnboardController::failed));
 }
 
 void OnboardController::attachAs(std::optional<sessions::InputFile> record, const QString& text) {
   const sessions::SessionCase* session_case = shownCase(document_, state_);
   if (!session_case) return Q_EMIT failed(tr("Open the case that the record belongs to first."));
-  sessions::SessionCase next = *session_case;
-  next.onboard_record = std::move(record);
-  document_.edit(sessions::withCase(document_.session(), std::move(next)),
+  const auto attach = [&record](sessions::SessionCase& changed) {
+    changed.onboard_record = std::move(record);
+  };
+  document_.edit(sessions::withChanged(document_.session(), session_case->id, attach),
                  text.arg(QString::fromStdString(session_case->id)));
 }
 

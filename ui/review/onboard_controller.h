@@ -10,12 +10,12 @@
 #include <QString>
 
 #include "sessions/record/onboard_review.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
 class Document;
-class TaskRunner;
 
 /// The current case's onboard record: attached by an edit of the document, read and replayed on a
 /// worker thread. Shown instead of the ground's run on request, and compared with it whenever
@@ -33,6 +33,7 @@ class OnboardController : public QObject {
   std::filesystem::path file() const;
   /// nullptr until it is read, or when it cannot be.
   const ReviewPtr& review() const { return review_; }
+  const CaseOpening& opening() const { return state_.opening(); }
   /// Why the record cannot be shown, or empty.
   const QString& problem() const { return problem_; }
   /// nullptr until both runs exist; then whyNotCompared() is empty.
@@ -62,7 +63,6 @@ class OnboardController : public QObject {
   void told(const QString& message);
 
  private:
-  void caseChanged();
   void snapshotChanged();
   void readAgain();
   void takeReview(const ViewState::CasePtr& loaded_case, ReviewPtr review, const QString& problem);
@@ -78,7 +78,8 @@ class OnboardController : public QObject {
   ViewState::SnapshotPtr ground_;
   std::shared_ptr<const sessions::LoadedCase> ground_case_;  ///< when the run was taken
   ComparisonPtr comparison_;
-  std::string case_id_;
+  TaskKind reading_;
+  TaskKind comparing_;
   std::optional<sessions::InputFile> read_;  ///< the record of `review_` or `problem_`
 };
 

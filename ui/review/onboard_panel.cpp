@@ -159,10 +159,15 @@ void OnboardPanel::showTable(const sessions::RecordComparison* comparison) {
 }
 
 void askForOnboardRecord(OnboardController& onboard, QWidget* parent) {
+  const CaseOpening seen = onboard.opening();
   const QString file =
       QFileDialog::getOpenFileName(parent, OnboardPanel::tr("Load an onboard record"), {},
                                    OnboardPanel::tr("Onboard records (*.whsr);;All files (*)"));
-  if (!file.isEmpty()) onboard.attach(file.toStdString());
+  if (file.isEmpty()) return;
+  if (seen == onboard.opening())
+    onboard.attach(file.toStdString());
+  else
+    Q_EMIT onboard.failed(leftText(seen));
 }
 
 }  // namespace boresight::ui

@@ -101,26 +101,28 @@ QString PoseExport::bopResultsFileName() const {
 }
 
 template <class Write>
-void PoseExport::exportOne(const std::filesystem::path& file, const QString& note, Write write) {
+void PoseExport::exportOne(const std::filesystem::path& file, const QString& note,
+                           const Exported& exported, Write write) {
+  const QString id = fromText(exported.case_id);
   exports_.start(
-      writingText(file), tr("the pose of %1 is measured again").arg(fromText(caseId())),
-      [write, session = document_.session(), id = caseId()](const ExportRunner::Progress&) {
-        return write(session, id);
+      writingText(file), tr("the pose of %1 is measured again").arg(id),
+      [write, exported](const ExportRunner::Progress&) {
+        return write(exported.session, exported.case_id);
       },
-      [this, file, note, id = fromText(caseId())](const std::string& status) {
+      [this, file, note, id](const std::string& status) {
         Q_EMIT noted(note.arg(id, fileNameOf(file), fromText(status)));
       });
 }
 
-void PoseExport::exportPose(const std::filesystem::path& file) {
-  exportOne(file, tr("Pose of %1 written to %2. It is %3."),
+void PoseExport::exportPose(const std::filesystem::path& file, const Exported& exported) {
+  exportOne(file, tr("Pose of %1 written to %2. It is %3."), exported,
             [file](const sessions::Session& session, const std::string& id) {
               return sessions::writeValidatedPose(file, session, id).review_status;
             });
 }
 
-void PoseExport::exportReport(const std::filesystem::path& file) {
-  exportOne(file, tr("Report of %1 written to %2. It is %3."),
+void PoseExport::exportReport(const std::filesystem::path& file, const Exported& exported) {
+  exportOne(file, tr("Report of %1 written to %2. It is %3."), exported,
             [file](const sessions::Session& session, const std::string& id) {
               const sessions::PoseReport report = sessions::poseReport(session, id);
               sessions::writePoseReport(file, report);
@@ -129,52 +131,57 @@ void PoseExport::exportReport(const std::filesystem::path& file) {
 }
 
 template <class Write>
-void PoseExport::exportAll(const std::filesystem::path& path, Write write) {
+void PoseExport::exportAll(const std::filesystem::path& path, const sessions::Session& session,
+                           Write write) {
   exports_.start(
       writingText(path), tr("poses of all cases"),
-      [write, session = document_.session()](const ExportRunner::Progress& progress) {
-        return write(session, progress);
-      },
+      [write, session](const ExportRunner::Progress& progress) { return write(session, progress); },
       [this, path](const sessions::ExportReport& report) {
         Q_EMIT noted(exportNote(report, path));
       });
 }
 
-void PoseExport::exportBopResults(const std::filesystem::path& file, int scene_id) {
-  exportAll(file, [file, scene_id](const sessions::Session& session, const auto& progress) {
-    return sessions::exportBopResults(session, file, {}, scene_id, progress);
+void PoseExport::exportBopResults(const std::filesystem::path& file, int scene_id,
+                                  const sessions::Session& session) {
+  exportAll(file, session, [file, scene_id](const sessions::Session& whole, const auto& progress) {
+    return sessions::exportBopResults(whole, file, {}, scene_id, progress);
   });
 }
 
-void PoseExport::exportColmap(const std::filesystem::path& folder) {
-  exportAll(folder, [folder](const sessions::Session& session, const auto& progress) {
-    return sessions::exportColmap(session, folder,
-                                  sessions::posesToHandOver(session, {}, progress));
+void PoseExport::exportColmap(const std::filesystem::path& folder,
+                              const sessions::Session& session) {
+  exportAll(folder, session, [folder](const sessions::Session& whole, const auto& progress) {
+    return sessions::exportColmap(whole, folder, sessions::posesToHandOver(whole, {}, progress));
   });
 }
 
 void PoseExport::askForBopResults() {
+  const sessions::Session session = document_.session();
+  const QString proposed = inSessionFolder(document_, bopResultsFileName());
   bool chosen = false;
   const int scene_id = QInputDialog::getInt(&window_, tr("BOP results"),
                                             tr("Number of the scene that the images are of"), 1, 0,
                                             999999, 1, &chosen);
   if (!chosen) return;
-  const auto file =
-      askForNewFile(window_, tr("Poses of all cases as BOP results"),
-                    inSessionFolder(document_, bopResultsFileName()), tr("Table (*.csv)"));
-  if (!file.empty()) exportBopResults(file, scene_id);
+  const auto file = askForNewFile(window_, tr("Poses of all cases as BOP results"), proposed,
+                                  tr("Table (*.csv)"));
+  if (!file.empty()) exportBopResults(file, scene_id, session);
 }
 
 void PoseExport::askForColmap() {
+  const sessions::Session session = document_.session();
   const QString folder =
       QFileDialog::getSaveFileName(&window_, tr("New folder for a COLMAP text model"),
                                    inSessionFolder(document_, QStringLiteral("colmap_poses")));
-  if (!folder.isEmpty()) exportColmap(folder.toStdString());
+  if (!folder.isEmpty()) exportColmap(folder.toStdString(), session);
 }
 
 std::filesystem::path PoseExport::askForFile(const QString& title, const QString& name,
                                              const QString& filter) {
-  if (caseId().empty()) return {};
+  if (caseId().empty()) {
+    Q_EMIT failed(tr("No case is shown: select one in the list of cases."));
+    return {};
+  }
   const auto status = sessions::reviewStatusOf(document_.session(), caseId());
   return askForNewFile(window_,
                        title.arg(fromText(caseId()), fromText(sessions::reviewStatusText(status))),
@@ -182,13 +189,15 @@ std::filesystem::path PoseExport::askForFile(const QString& title, const QString
 }
 
 void PoseExport::askForPose() {
+  const Exported exported = shown();
   const auto file = askForFile(tr("Pose of %1 (%2)"), poseFileName(), tr("Pose (*.json)"));
-  if (!file.empty()) exportPose(file);
+  if (!file.empty()) exportPose(file, exported);
 }
 
 void PoseExport::askForReport() {
+  const Exported exported = shown();
   const auto file = askForFile(tr("Report of %1 (%2)"), reportFileName(), tr("PDF (*.pdf)"));
-  if (!file.empty()) exportReport(file);
+  if (!file.empty()) exportReport(file, exported);
 }
 
 }  // namespace boresight::ui

@@ -9,8 +9,6 @@
 namespace boresight::ui {
 namespace {
 
-const QString kKey = QStringLiteral("pose quality");
-
 /// Whether a run is of the case as it is now: another camera or mesh would give it another quality.
 bool isOfTheCase(const sessions::LocalizationTrace& run, const Document& document,
                  const ViewState& state) {
@@ -38,18 +36,19 @@ void QualityController::follow() {
   if (question == question_) return;
   question_ = std::move(question);
   quality_.reset();
-  tasks_.cancel(kKey);
+  tasks_.cancel(measuring_);
   Q_EMIT changed();
   if (!question_.run) return;
-  tasks_.start(
-      kKey,
+  tasks_.replace(
+      measuring_,
       [session = document_.session(), asked = question_](const std::stop_token&) {
         return sessions::runQuality(session, asked.loaded, *asked.run);
       },
       [this](sessions::PoseQuality quality) {
         quality_ = std::move(quality);
         Q_EMIT changed();
-      });
+      },
+      reportTo(this, &QualityController::failed));
 }
 
 }  // namespace boresight::ui

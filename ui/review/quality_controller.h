@@ -6,12 +6,12 @@
 #include <QObject>
 
 #include "sessions/checks/pose_quality.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
 class Document;
-class TaskRunner;
 
 /// The quality of the shown run's pose by the session's requirement and limits, measured on a
 /// worker thread.
@@ -26,6 +26,8 @@ class QualityController : public QObject {
 
  Q_SIGNALS:
   void changed();
+  /// It cannot be measured; one sentence.
+  void failed(const QString& message);
 
  private:
   /// All that the quality depends on.
@@ -42,6 +44,7 @@ class QualityController : public QObject {
   Document& document_;
   ViewState& state_;
   TaskRunner& tasks_;
+  TaskKind measuring_;
   Question question_;
   std::optional<sessions::PoseQuality> quality_;
 };

@@ -33,7 +33,8 @@ class CaseByCase {
     std::optional<Value> value;
     bool current = false;  ///< the value is of this key
   };
-  /// Called on the worker's thread; must not throw.
+  /// Called on the worker's thread. A case for which it throws has no value, and is not tried again
+  /// before its key changes.
   using Make = std::function<Value(const sessions::Session& session, const std::string& id)>;
   using Keys = std::vector<std::pair<std::string, std::string>>;  ///< id and key, in order
   using Before = std::function<bool(const Entry&, const Entry&)>;
@@ -86,16 +87,16 @@ class CaseByCase {
     Entry* entry = active_ && !making_ ? next() : nullptr;
     if (!entry) return;
     making_ = true;
-    runner_.start(
-        QStringLiteral("case"),
+    runner_.queue(
         [session = session_, id = entry->id, make = make_](const std::stop_token&) {
           return make(session, id);
         },
-        [this, id = entry->id, key = entry->key](Value value) { take(id, key, std::move(value)); });
+        [this, id = entry->id, key = entry->key](Value value) { take(id, key, std::move(value)); },
+        [this, id = entry->id, key = entry->key](const QString&) { take(id, key, {}); });
   }
 
   /// Drops a value whose key has changed.
-  void take(const std::string& id, const std::string& key, Value value) {
+  void take(const std::string& id, const std::string& key, std::optional<Value> value) {
     making_ = false;
     const auto entry = std::ranges::find(entries_, id, &Entry::id);
     if (entry != entries_.end() && entry->key == key) {

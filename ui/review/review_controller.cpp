@@ -18,9 +18,6 @@ using sessions::Verdict;
 
 namespace {
 
-const QString kChecksKey = QStringLiteral("checks");
-const QString kConvergenceKey = QStringLiteral("convergence");
-
 /// Whether the loaded case equals the document's; a nudged pose is not compared.
 bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase current) {
   current.camera_from_station_working = read.camera_from_station_working;
@@ -31,14 +28,14 @@ bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase current) 
 
 ReviewController::ReviewController(Document& document, ViewState& state)
     : document_(document), state_(state) {
+  connect(&document_, &Document::opened, this, [this] { reasons_.clear(); });
+  state_.onChange(ViewChange::kOtherCase, this, [this] { wanted_source_.reset(); });
   connectEach(document_, this, &ReviewController::follow, &Document::opened, &Document::changed);
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
   state_.onChange(ViewChange::kSnapshot, this, [this] {
     if (std::exchange(shows_other_run_, showsOtherRun()) != showsOtherRun())
       Q_EMIT reviewStatusChanged();
   });
-  connect(&checks_runner_, &TaskRunner::failed, this,
-          [this](const QString& message) { take({}, message); });
   connect(&convergence_runner_, &TaskRunner::busyChanged, this,
           &ReviewController::convergenceChanged);
   follow();
@@ -52,11 +49,6 @@ void ReviewController::setInSight(bool in_sight) {
 void ReviewController::setFollowsRuns(bool follows) {
   follows_runs_ = follows;
   if (isActive() && !current_) ask();
-}
-
-void ReviewController::setChosenCase(const QString& id) {
-  chosen_id_ = id;
-  Q_EMIT reviewStatusChanged();
 }
 
 bool ReviewController::hasOtherCases() const { return document_.session().cases.size() > 1; }
@@ -80,7 +72,6 @@ void ReviewController::setSource(PoseSource source) {
 /// The operator's choice for this case, else the source of its decision, else an existing one.
 void ReviewController::chooseSource() {
   const std::string id = caseId();
-  if (std::exchange(shown_id_, id) != id) wanted_source_.reset();
   const sessions::RunRecord* run = document_.session().lastRunOf(id);
   source_ = hasAnnotations() && (!run || run->status != "converged") ? PoseSource::kAnnotation
                                                                      : PoseSource::kRun;
@@ -133,8 +124,8 @@ void ReviewController::follow() {
 /// Cancels the evaluation. Its last checks stay visible as outdated ones, unless they are of
 /// another case.
 void ReviewController::drop() {
-  checks_runner_.cancel(kChecksKey);
-  convergence_runner_.cancel(kConvergenceKey);
+  checks_runner_.cancel(checking_);
+  convergence_runner_.cancel(testing_);
   if (!problem_.isEmpty() || !subject_ || subject_->loaded->source.id != caseId()) checks_.clear();
   convergence_ = {};
   convergence_so_far_ = {};
@@ -147,8 +138,8 @@ void ReviewController::ask() {
   asked_ = true;
   current_ = false;
   const sessions::Session session = document_.session();
-  checks_runner_.start(
-      kChecksKey,
+  checks_runner_.replace(
+      checking_,
       [session, asked = *question_, convergence = convergence_](const std::stop_token&) {
         Answer answer;
         answer.subject = std::make_shared<const sessions::ReviewSubject>(
@@ -157,7 +148,8 @@ void ReviewController::ask() {
         answer.checks = checkPose(*answer.subject, limits, convergence);
         return answer;
       },
-      [this](const Answer& answer) { take(answer, {}); });
+      [this](const Answer& answer) { take(answer, {}); },
+      [this](const QString& message) { take({}, message); });
 }
 
 void ReviewController::take(const Answer& answer, const QString& problem) {
@@ -177,9 +169,8 @@ QString ReviewController::reasonFor(const sessions::Check& check) const {
   return same ? found->second.text : QString();
 }
 
-void ReviewController::setReason(const std::string& check_id, const QString& reason) {
-  for (const sessions::Check& check : checks_)
-    if (check.id == check_id) reasons_[caseId()][check_id] = {check, reason.trimmed()};
+void ReviewController::setReason(const sessions::Check& check, const QString& reason) {
+  reasons_[caseId()][check.id] = {check, reason.trimmed()};
   Q_EMIT checksChanged();
 }
 
@@ -243,8 +234,6 @@ bool ReviewController::showsOtherRun() const {
 /// Only a pose that is shown, with its checks, can be decided on.
 QString ReviewController::unseen(Act act) const {
   const QString id = fromText(caseId());
-  if (!chosen_id_.isEmpty() && chosen_id_ != id)
-    return tr("%1 is still being read").arg(chosen_id_);
   if (act != Act::kValidate) return {};
   if (!problem_.isEmpty()) return problem_;
   if (!current_) return tr("the checks of %1 are not complete yet: wait for them").arg(id);
@@ -257,11 +246,15 @@ QString ReviewController::unseen(Act act) const {
 QString ReviewController::obstacle(Act act, const sessions::Signature& who) const {
   if (!document_.isOpen()) return tr("no session is open");
   if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
-  if (caseId().empty()) return tr("no case is shown: select one in the list of cases");
+  const std::string& open_id = state_.opening().id;
+  if (caseId().empty())
+    return open_id.empty() ? tr("no case is shown: select one in the list of cases")
+                           : tr("%1 is still being read").arg(fromText(open_id));
   if (const QString said = settled(act); !said.isEmpty()) return said;
   if (const QString reason = unseen(act); !reason.isEmpty()) return reason;
   try {
-    (void)after(act, {"a second person", "?"});  // obstacles that remain with a signature
+    // An obstacle that remains with a signature is told first.
+    if (who.by.empty() || who.comment.empty()) (void)after(act, {"a second person", "?"});
     (void)after(act, who);
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());
@@ -308,9 +301,10 @@ void ReviewController::setSecondPerson(bool asked) {
 void ReviewController::startConvergenceTest(int seeds) {
   if (!current_ || isConvergenceTestRunning()) return;
   convergence_so_far_ = {};
-  convergence_runner_.run(
-      kConvergenceKey, [this, subject = subject_, seeds](const std::stop_token& stop,
-                                                         const TaskRunner::Report& report) {
+  convergence_runner_.replace(
+      testing_,
+      [this, subject = subject_, seeds](const std::stop_token& stop,
+                                        const TaskRunner::Report& report) {
         const auto tell = [this, &report](const sessions::ConvergenceResult& so_far) {
           report([this, so_far] {
             convergence_so_far_ = so_far;
@@ -325,9 +319,12 @@ void ReviewController::startConvergenceTest(int seeds) {
           ask();
           Q_EMIT checksChanged();
         });
+      },
+      [this](const QString& message) {
+        Q_EMIT failed(tr("The convergence test of %1 ended: %2").arg(fromText(caseId()), message));
       });
 }
 
-void ReviewController::stopConvergenceTest() { convergence_runner_.stop(kConvergenceKey); }
+void ReviewController::stopConvergenceTest() { convergence_runner_.stop(testing_); }
 
 }  // namespace boresight::ui

@@ -34,10 +34,6 @@ class ReviewController : public QObject {
   /// Checks are evaluated only while they are in sight, or runs are looked at.
   void setInSight(bool in_sight);
   void setFollowsRuns(bool follows);
-  /// Sets the case that the operator chose; while it is being read, another case is shown and no
-  /// decision is possible.
-  void setChosenCase(const QString& id);
-
   /// Id of the shown case, or empty.
   std::string caseId() const { return shownCaseId(document_, state_); }
   /// Whether the session has cases other than the shown one.
@@ -58,7 +54,8 @@ class ReviewController : public QObject {
 
   /// Reason to waive a failed check; valid only for the figure for which it was given.
   QString reasonFor(const sessions::Check& check) const;
-  void setReason(const std::string& check_id, const QString& reason);
+  /// `check` has the figure that the operator saw, which may have changed since.
+  void setReason(const sessions::Check& check, const QString& reason);
 
   sessions::ReviewStatus reviewStatus() const;
   /// The decisions on the case, the newest first; they point into the document's session.
@@ -92,6 +89,8 @@ class ReviewController : public QObject {
   /// Case, decisions, limits, or the poses that can be judged have changed.
   void reviewStatusChanged();
   void convergenceChanged();
+  /// The convergence test has failed; one sentence.
+  void failed(const QString& message);
 
  private:
   /// All inputs of the answer.
@@ -131,10 +130,8 @@ class ReviewController : public QObject {
   ViewState& state_;
   bool in_sight_ = false;
   bool follows_runs_ = false;
-  QString chosen_id_;  ///< empty: not set
   bool shows_other_run_ = false;
-  std::string shown_id_;  ///< the case that the source was chosen for
-  std::optional<sessions::PoseSource> wanted_source_;
+  std::optional<sessions::PoseSource> wanted_source_;  ///< for the shown case
   sessions::PoseSource source_ = sessions::PoseSource::kRun;
   std::optional<Question> question_;
   bool asked_ = false;
@@ -144,9 +141,11 @@ class ReviewController : public QObject {
   std::vector<sessions::Check> checks_;
   sessions::ConvergenceResult convergence_;  ///< without seeds: not run yet
   sessions::ConvergenceResult convergence_so_far_;
-  std::map<std::string, std::map<std::string, Reason>> reasons_;  ///< by case and check
+  std::map<std::string, std::map<std::string, Reason>> reasons_;  ///< by case and check id
   TaskRunner checks_runner_;
+  TaskKind checking_;
   TaskRunner convergence_runner_;
+  TaskKind testing_;
 };
 
 }  // namespace boresight::ui

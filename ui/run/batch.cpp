@@ -8,11 +8,6 @@
 #include "ui/models/text.h"
 
 namespace boresight::ui {
-namespace {
-
-QString batchTask() { return QStringLiteral("batch"); }
-
-}  // namespace
 
 int BatchSummary::count() const {
   int cases = 0;
@@ -42,38 +37,35 @@ QString Batch::takeNext() {
 }
 
 void Batch::run(const sessions::Session& session, const QString& id) {
-  runner_.run(batchTask(), [this, session, id](const std::stop_token& stop,
-                                               const TaskRunner::Report& report) {
-    try {
-      const auto loaded = sessions::loadCase(sessions::knownCase(session, id.toStdString()));
-      sessions::requireRunnable(*loaded);
-      sessions::Runner run(
-          loaded->problem(),
-          sessions::RunPlan{sessions::caseOptions(session, loaded->source, "session")},
-          {.level = sessions::RecordLevel::kFull});
-      while (!run.finished() && !stop.stop_requested()) {
-        run.advance(sessions::StepUntil::kIteration, stop);
-        const auto iterations = static_cast<int>(run.trace().iterations.size());
-        report([this, iterations] { count(iterations); });
-      }
-      if (!run.finished()) return;
-      auto trace = std::make_shared<const sessions::LocalizationTrace>(run.trace());
-      report([this, id, trace] {
-        caseDone(fromText(sessions::runHeadline(*trace).head).toLower());
-        Q_EMIT caseEnded(id, trace);
-      });
-    } catch (const std::exception& error) {
-      report([this, id, message = QString::fromUtf8(error.what())] {
-        caseDone(tr("could not be run"));
-        Q_EMIT caseFailed(id, message);
-      });
+  const auto work = [this, session, id](const std::stop_token& stop,
+                                        const TaskRunner::Report& report) {
+    const auto loaded = sessions::loadCase(sessions::knownCase(session, id.toStdString()));
+    sessions::requireRunnable(*loaded);
+    sessions::Runner run(
+        loaded->problem(),
+        sessions::RunPlan{sessions::caseOptions(session, loaded->source, "session")},
+        {.level = sessions::RecordLevel::kFull});
+    while (!run.finished() && !stop.stop_requested()) {
+      run.advance(sessions::StepUntil::kIteration, stop);
+      const auto iterations = static_cast<int>(run.trace().iterations.size());
+      report([this, iterations] { count(iterations); });
     }
+    if (!run.finished()) return;
+    auto trace = std::make_shared<const sessions::LocalizationTrace>(run.trace());
+    report([this, id, trace] {
+      caseDone(fromText(sessions::runHeadline(*trace).head).toLower());
+      Q_EMIT caseEnded(id, trace);
+    });
+  };
+  runner_.replace(running_, work, [this, id](const QString& message) {
+    caseDone(tr("could not be run"));
+    Q_EMIT caseFailed(id, message);
   });
 }
 
 void Batch::stop() {
   waiting_.clear();
-  runner_.cancel(batchTask());
+  runner_.cancel(running_);
   if (const auto ended = std::exchange(progress_, std::nullopt)) {
     summary_ = {ended->of, std::exchange(ends_, {}), 1e-3 * static_cast<double>(watch_.elapsed())};
     Q_EMIT changed();

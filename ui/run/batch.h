@@ -68,6 +68,7 @@ class Batch : public QObject {
   void caseDone(const QString& end);
 
   TaskRunner runner_;
+  TaskKind running_;
   QStringList waiting_;
   std::optional<BatchProgress> progress_;
   std::map<QString, int> ends_;

@@ -3,24 +3,18 @@
 
 namespace boresight::ui {
 
-ExportRunner::ExportRunner(QObject* parent) : QObject(parent) {
-  connect(&runner_, &TaskRunner::failed, this, &ExportRunner::failed);
-}
-
-/// Each has a key of its own: none replaces another.
 void ExportRunner::add(const ExportJob& job, TaskRunner::Work work) {
   jobs_.push_back(job);
-  runner_.run(QStringLiteral("export %1").arg(++count_),
-              [this, work = std::move(work)](const std::stop_token& stop,
-                                             const TaskRunner::Report& report) {
-                try {
-                  work(stop, report);
-                } catch (...) {
-                  report([this] { endFirst(); });
-                  throw;
-                }
-                report([this] { endFirst(); });
-              });
+  runner_.queue(
+      [this, work = std::move(work)](const std::stop_token& stop,
+                                     const TaskRunner::Report& report) {
+        work(stop, report);
+        report([this] { endFirst(); });
+      },
+      [this](const QString& message) {
+        endFirst();
+        Q_EMIT failed(message);
+      });
   Q_EMIT changed();
 }
 

@@ -28,7 +28,7 @@ class ExportRunner : public QObject {
   /// To be called by the writer with the number of parts written, and of all.
   using Progress = std::function<void(int done, int of)>;
 
-  explicit ExportRunner(QObject* parent = nullptr);
+  using QObject::QObject;
 
   /// `write(progress)` returns a value, `done(value)` takes it on this object's thread; if it
   /// throws, failed() is emitted.
@@ -44,6 +44,8 @@ class ExportRunner : public QObject {
     });
   }
   bool isBusy() const { return !jobs_.empty(); }
+  /// Under way and waiting.
+  int count() const { return static_cast<int>(jobs_.size()); }
   /// The export under way; isBusy().
   const ExportJob& job() const { return jobs_.front(); }
 
@@ -57,7 +59,6 @@ class ExportRunner : public QObject {
   void endFirst();
 
   std::deque<ExportJob> jobs_;  ///< the one under way first
-  int count_ = 0;               ///< of all so far
   TaskRunner runner_;
 };
 

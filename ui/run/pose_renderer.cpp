@@ -8,12 +8,6 @@
 #include "sessions/trace/scene_render.h"
 
 namespace boresight::ui {
-namespace {
-
-QString movingKey() { return QStringLiteral("moving"); }
-QString restingKey() { return QStringLiteral("resting"); }
-
-}  // namespace
 
 struct PoseRenderer::Drawn {
   RenderPtr render;  ///< nullptr: `problem` says why, or it was stopped
@@ -54,11 +48,7 @@ struct PoseRenderer::Renderers {
 PoseRenderer::PoseRenderer(QObject* parent) : QObject(parent) {
   rest_.setSingleShot(true);
   rest_.setInterval(kRest_ms);
-  connect(&rest_, &QTimer::timeout, this, [this] { draw(restingKey(), 0); });
-  connect(&runner_, &TaskRunner::failed, this, [this](const QString& message) {
-    setCase(renderers_ ? renderers_->one : nullptr);  // gives their memory back
-    Q_EMIT failed(message);
-  });
+  connect(&rest_, &QTimer::timeout, this, [this] { draw(resting_, 0); });
 }
 
 void PoseRenderer::setCase(std::shared_ptr<const sessions::LoadedCase> loaded_case) {
@@ -72,7 +62,7 @@ void PoseRenderer::setCase(std::shared_ptr<const sessions::LoadedCase> loaded_ca
 void PoseRenderer::setPose(const Pose& camera_from_station) {
   if (!renderers_) return;
   camera_from_station_ = camera_from_station;
-  runner_.cancel(restingKey());
+  runner_.cancel(resting_);
   rest_.start();
   // What is under way is finished first: an operator who moves fast would see nothing otherwise.
   if (drawing_)
@@ -83,8 +73,8 @@ void PoseRenderer::setPose(const Pose& camera_from_station) {
 
 void PoseRenderer::clear() {
   rest_.stop();
-  runner_.cancel(movingKey());
-  runner_.cancel(restingKey());
+  runner_.cancel(moving_);
+  runner_.cancel(resting_);
   drawing_ = false;
   overtaken_ = false;
 }
@@ -92,16 +82,20 @@ void PoseRenderer::clear() {
 void PoseRenderer::drawMoving() {
   drawing_ = true;
   overtaken_ = false;
-  draw(movingKey(), kMovingLevel);
+  draw(moving_, kMovingLevel);
 }
 
-void PoseRenderer::draw(const QString& key, int level) {
-  runner_.start(
-      key,
+void PoseRenderer::draw(const TaskKind& kind, int level) {
+  runner_.replace(
+      kind,
       [renderers = renderers_, pose = camera_from_station_, level](const std::stop_token& stop) {
         return renderers->draw(pose, level, stop);
       },
-      [this](const Drawn& drawn) { take(drawn); });
+      [this](const Drawn& drawn) { take(drawn); },
+      [this](const QString& message) {
+        setCase(renderers_ ? renderers_->one : nullptr);  // gives their memory back
+        Q_EMIT failed(message);
+      });
 }
 
 void PoseRenderer::take(const Drawn& drawn) {

@@ -45,7 +45,7 @@ class PoseRenderer : public QObject {
   struct Drawn;
 
   void drawMoving();
-  void draw(const QString& key, int level);
+  void draw(const TaskKind& kind, int level);
   void take(const Drawn& drawn);
 
   std::shared_ptr<Renderers> renderers_;  ///< nullptr without a case
@@ -54,6 +54,8 @@ class PoseRenderer : public QObject {
   bool overtaken_ = false;  ///< a newer pose waits for the end of that
   QTimer rest_;
   TaskRunner runner_;
+  TaskKind moving_;
+  TaskKind resting_;
 };
 
 }  // namespace boresight::ui

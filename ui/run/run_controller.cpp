@@ -10,12 +10,6 @@ namespace boresight::ui {
 using sessions::Runner;
 using sessions::StepUntil;
 
-namespace {
-
-QString runTaskKey() { return QStringLiteral("run"); }
-
-}  // namespace
-
 /// One run, touched by the worker alone once it is under way.
 struct RunController::Job {
   RunInputs inputs;
@@ -72,12 +66,8 @@ struct RunController::Job {
   }
 };
 
-RunController::RunController(QObject* parent) : QObject(parent) {
-  connect(&runner_, &TaskRunner::failed, this, &RunController::takeFailure);
-}
-
 void RunController::reset(RunInputs inputs) {
-  runner_.cancel(runTaskKey());
+  runner_.cancel(running_);
   inputs_ = std::move(inputs);
   snapshot_.reset();
   views_.clear();
@@ -91,18 +81,19 @@ void RunController::advance(StepUntil until) {
   setState(RunState::kWorking);
   // A longer way is gone in iterations, so that the operator can watch.
   const StepUntil stride = until == StepUntil::kEnd ? StepUntil::kIteration : until;
-  runner_.run(runTaskKey(), [this, until, stride, job = job_](const std::stop_token& stop,
-                                                              const TaskRunner::Report& report) {
+  const auto work = [this, until, stride, job = job_](const std::stop_token& stop,
+                                                      const TaskRunner::Report& report) {
     for (bool halted = false; !halted;) {
       std::vector<SnapshotPtr> records;
       if (job->advance(stride, stop)) records = job->records();
       halted = job->finished() || until != StepUntil::kEnd || stop.stop_requested();
       report([this, records, halted] { takeResult(records, halted); });
     }
-  });
+  };
+  runner_.replace(running_, work, [this](const QString& message) { takeFailure(message); });
 }
 
-void RunController::stop() { runner_.stop(runTaskKey()); }
+void RunController::stop() { runner_.stop(running_); }
 
 void RunController::takeResult(std::vector<SnapshotPtr> records, bool halted) {
   if (records.empty()) return setState(RunState::kHalted);

@@ -44,7 +44,7 @@ class RunController : public QObject {
  public:
   using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
-  explicit RunController(QObject* parent = nullptr);
+  using QObject::QObject;
 
   RunState state() const { return state_; }
   /// The latest record; nullptr before the first.
@@ -83,6 +83,7 @@ class RunController : public QObject {
   std::vector<SnapshotPtr> views_;
   std::shared_ptr<Job> job_;
   TaskRunner runner_;
+  TaskKind running_;
 };
 
 }  // namespace boresight::ui

@@ -9,8 +9,6 @@
 namespace boresight::ui {
 namespace {
 
-QString sequenceKey() { return QStringLiteral("sequence"); }
-
 SequenceProgress progressOf(const sessions::CaseSequence& sequence) {
   const sessions::Sequence& frames = sequence.sequence();
   return {frames.frames(), sequence.total(), static_cast<std::int64_t>(frames.lost().size()),
@@ -18,13 +16,6 @@ SequenceProgress progressOf(const sessions::CaseSequence& sequence) {
 }
 
 }  // namespace
-
-SequenceRunner::SequenceRunner(QObject* parent) : QObject(parent) {
-  connect(&runner_, &TaskRunner::failed, this, [this](const QString& message) {
-    Q_EMIT failed(message);
-    end();
-  });
-}
 
 void SequenceRunner::start(const sessions::SequenceOrder& order,
                            std::shared_ptr<const sessions::LoadedCase> loaded) {
@@ -35,8 +26,8 @@ void SequenceRunner::start(const sessions::SequenceOrder& order,
   progress_ = {};
   running_ = true;
   stopped_ = false;
-  runner_.run(sequenceKey(), [this, order, loaded = loaded_](const std::stop_token& stop,
-                                                             const TaskRunner::Report& report) {
+  const auto work = [this, order, loaded = loaded_](const std::stop_token& stop,
+                                                    const TaskRunner::Report& report) {
     auto source = sessions::openFrames(order.images, order.session_case.image.eight_bit);
     const std::string name = "case " + order.session_case.id;
     const sessions::InputPlaces places{{}, {name, "camera"}, {}, {name, "seed"}};
@@ -47,6 +38,10 @@ void SequenceRunner::start(const sessions::SequenceOrder& order,
       report([this, row = sessions::sequenceRow(*result, centre_m),
               progress = progressOf(sequence)] { take(row, progress); });
     report([this] { end(); });
+  };
+  runner_.replace(sequence_, work, [this](const QString& message) {
+    Q_EMIT failed(message);
+    end();
   });
   Q_EMIT changed();
 }
@@ -54,7 +49,7 @@ void SequenceRunner::start(const sessions::SequenceOrder& order,
 void SequenceRunner::stop() {
   if (!running_) return;
   stopped_ = true;
-  runner_.stop(sequenceKey());
+  runner_.stop(sequence_);
 }
 
 void SequenceRunner::take(const sessions::SequenceRow& row, SequenceProgress progress) {

@@ -29,7 +29,7 @@ class SequenceRunner : public QObject {
   Q_OBJECT
 
  public:
-  explicit SequenceRunner(QObject* parent = nullptr);
+  using QObject::QObject;
 
   /// `loaded` is the case as it is shown; its image is not a frame.
   void start(const sessions::SequenceOrder& order,
@@ -56,6 +56,7 @@ class SequenceRunner : public QObject {
   void end();
 
   TaskRunner runner_;
+  TaskKind sequence_;
   sessions::SequenceOrder order_;
   std::shared_ptr<const sessions::LoadedCase> loaded_;
   std::vector<sessions::SequenceRow> rows_;

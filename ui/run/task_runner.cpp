@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/run/task_runner.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -13,12 +14,18 @@
 
 namespace boresight::ui {
 
+TaskKind::TaskKind() {
+  static std::atomic<std::uint64_t> count = 0;
+  number_ = ++count;
+}
+
 class TaskRunner::Thread {
  public:
   struct Item {
-    QString key;
+    std::uint64_t kind = 0;
     std::uint64_t number = 0;
     Work work;
+    Failure failed;
     std::stop_source stop;
   };
 
@@ -37,22 +44,22 @@ class TaskRunner::Thread {
   void add(Item item) {
     {
       const std::lock_guard lock(mutex_);
-      drop(item.key);
+      if (item.kind != 0) drop(item.kind);
       queue_.push_back(std::move(item));
     }
     wake_.notify_all();
   }
 
-  void stop(const QString& key) {
+  void stop(std::uint64_t kind) {
     const std::lock_guard lock(mutex_);
-    if (running_.key == key) running_.stop.request_stop();
+    if (running_.kind == kind) running_.stop.request_stop();
     for (Item& item : queue_)
-      if (item.key == key) item.stop.request_stop();
+      if (item.kind == kind) item.stop.request_stop();
   }
 
-  void cancel(const QString& key) {
+  void cancel(std::uint64_t kind) {
     const std::lock_guard lock(mutex_);
-    drop(key);
+    drop(kind);
   }
 
   /// The oldest report, on the owner's thread; there is one event for each.
@@ -65,10 +72,10 @@ class TaskRunner::Thread {
 
  private:
   /// Skips waiting tasks and asks the running one to stop; the owner drops its results.
-  void drop(const QString& key) {
-    if (running_.key == key) running_.stop.request_stop();
+  void drop(std::uint64_t kind) {
+    if (running_.kind == kind) running_.stop.request_stop();
     for (Item& item : queue_)
-      if (item.key == key) item.work = nullptr;
+      if (item.kind == kind) item.work = nullptr;
   }
 
   /// False when it is time to go.
@@ -79,7 +86,7 @@ class TaskRunner::Thread {
     if (quit_) return false;
     item = std::move(queue_.front());
     queue_.pop_front();
-    running_.key = item.key;
+    running_.kind = item.kind;
     running_.stop = item.stop;
     return true;
   }
@@ -87,8 +94,8 @@ class TaskRunner::Thread {
   void loop() {
     for (Item item; waitForItem(item); item = {}) {
       const QString error = work(item);
-      post([owner = &owner_, key = item.key, number = item.number, error] {
-        owner->end(key, number, error);
+      post([owner = &owner_, kind = item.kind, number = item.number, error, failed = item.failed] {
+        owner->end(kind, number, error, failed);
       });
     }
   }
@@ -96,17 +103,28 @@ class TaskRunner::Thread {
   /// Why it failed, or nothing.
   QString work(const Item& item) {
     if (!item.work) return {};
-    const Report report = [this, key = item.key, number = item.number](auto function) {
-      post([owner = &owner_, key, number, function = std::move(function)] {
-        if (owner->isNewest(key, number)) function();
+    const Report report = [this, kind = item.kind, number = item.number,
+                           failed = item.failed](auto function) {
+      post([owner = &owner_, kind, number, failed, function = std::move(function)] {
+        if (!owner->isUsed(kind, number)) return;
+        const QString problem = problemOf(function);
+        if (!problem.isEmpty()) failed(problem);
       });
     };
+    return problemOf([&] { item.work(item.stop.get_token(), report); });
+  }
+
+  /// Why the function threw, or nothing.
+  template <class Function>
+  static QString problemOf(const Function& function) {
     try {
-      item.work(item.stop.get_token(), report);
+      function();
     } catch (const std::bad_alloc&) {
       return tr("Not enough memory; close other sessions or use a smaller image.");
     } catch (const std::exception& exception) {
       return QString::fromUtf8(exception.what());
+    } catch (...) {
+      return tr("An unknown error.");
     }
     return {};
   }
@@ -135,30 +153,33 @@ TaskRunner::TaskRunner(QObject* parent)
 
 TaskRunner::~TaskRunner() = default;
 
-void TaskRunner::run(const QString& key, Work work) {
-  newest_[key] = ++count_;
+void TaskRunner::add(std::uint64_t kind, Work work, Failure failed) {
+  ++count_;
+  if (kind != 0) newest_[kind] = count_;
   ++pending_;
-  thread_->add({key, count_, std::move(work), std::stop_source()});
+  thread_->add({kind, count_, std::move(work), std::move(failed), std::stop_source()});
   if (pending_ == 1) Q_EMIT busyChanged();
 }
 
-void TaskRunner::stop(const QString& key) { thread_->stop(key); }
+void TaskRunner::stop(const TaskKind& kind) { thread_->stop(kind.number_); }
 
-void TaskRunner::cancel(const QString& key) {
-  newest_[key] = 0;
-  thread_->cancel(key);
+void TaskRunner::cancel(const TaskKind& kind) {
+  newest_.erase(kind.number_);
+  thread_->cancel(kind.number_);
 }
 
 void TaskRunner::customEvent(QEvent*) { thread_->takeReport()(); }
 
-bool TaskRunner::isNewest(const QString& key, std::uint64_t number) const {
-  const auto found = newest_.find(key);
+bool TaskRunner::isUsed(std::uint64_t kind, std::uint64_t number) const {
+  if (kind == 0) return true;
+  const auto found = newest_.find(kind);
   return found != newest_.end() && found->second == number;
 }
 
-void TaskRunner::end(const QString& key, std::uint64_t number, const QString& error) {
+void TaskRunner::end(std::uint64_t kind, std::uint64_t number, const QString& error,
+                     const Failure& failed) {
   --pending_;
-  if (!error.isEmpty() && isNewest(key, number)) Q_EMIT failed(error);
+  if (!error.isEmpty() && isUsed(kind, number)) failed(error);
   if (pending_ == 0) Q_EMIT busyChanged();
 }
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
 #include <stop_token>
+#include <type_traits>
 #include <utility>
 
 #include <QObject>
@@ -14,9 +14,31 @@
 
 namespace boresight::ui {
 
-/// A worker thread for tasks of views, which run in the order of their requests. Each kind of task
-/// has a key: of one key only the newest task is used; an older one is stopped and its results are
-/// dropped. Tasks that must not wait for others need a separate runner.
+/// A kind of task: of one kind only the newest task of a runner is used. A member of the object
+/// that starts the tasks.
+class TaskKind {
+ public:
+  TaskKind();
+
+ private:
+  friend class TaskRunner;
+  std::uint64_t number_;
+};
+
+/// Takes the failure of a task: one sentence for the operator.
+template <class Function>
+concept FailureReceiver = std::is_invocable_v<Function, const QString&>;
+
+/// Emits a signal of `receiver` when a task fails.
+template <class Receiver>
+auto reportTo(Receiver* receiver, void (Receiver::*signal)(const QString&)) {
+  return [receiver, signal](const QString& message) { Q_EMIT(receiver->*signal)(message); };
+}
+
+/// A worker thread for tasks, which run in the order of their requests. A task is queued, or
+/// replaces the earlier task of its kind, which is stopped and whose results are dropped. Every
+/// task names the receiver of its failure. Tasks that must not wait for others need a separate
+/// runner.
 class TaskRunner : public QObject {
   Q_OBJECT
 
@@ -28,42 +50,35 @@ class TaskRunner : public QObject {
   explicit TaskRunner(QObject* parent = nullptr);
   ~TaskRunner() override;
 
-  /// Runs a task that reports progress. Its captures must be shared or copied. If it throws,
-  /// failed() is emitted.
-  void run(const QString& key, Work work);
-
-  /// `work(stop_token)` returns a value, `done(value)` takes it on this object's thread.
-  template <class Make, class Done>
-  void start(const QString& key, Make make, Done done) {
-    run(key, [make = std::move(make), done = std::move(done)](const std::stop_token& stop,
-                                                              const Report& report) {
-      auto value = std::make_shared<decltype(make(stop))>(make(stop));
-      report([value, done] { done(std::move(*value)); });
-    });
+  /// Runs a task that reports progress. Its captures must be shared or copied. `failed(message)` is
+  /// called on this object's thread when it, or a function that it reports, throws.
+  template <FailureReceiver Failed>
+  void queue(Work work, Failed failed) {
+    add(0, std::move(work), std::move(failed));
   }
-  /// The same; `failed(message)` is called when the work throws.
-  template <class Make, class Done, class Failed>
-  void start(const QString& key, Make make, Done done, Failed failed) {
-    run(key, [make = std::move(make), done = std::move(done), failed = std::move(failed)](
-                 const std::stop_token& stop, const Report& report) {
-      try {
-        auto value = std::make_shared<decltype(make(stop))>(make(stop));
-        report([value, done] { done(std::move(*value)); });
-      } catch (const std::exception& error) {
-        report([failed, message = QString::fromUtf8(error.what())] { failed(message); });
-      }
-    });
+  template <FailureReceiver Failed>
+  void replace(const TaskKind& kind, Work work, Failed failed) {
+    add(kind.number_, std::move(work), std::move(failed));
   }
 
-  /// Asks running and waiting tasks of this key to stop; their reports are still delivered.
-  void stop(const QString& key);
-  /// Drops running and waiting tasks of this key.
-  void cancel(const QString& key);
+  /// `make(stop_token)` returns a value, `done(value)` takes it on this object's thread.
+  template <class Make, class Done, FailureReceiver Failed>
+  void queue(Make make, Done done, Failed failed) {
+    add(0, workOf(std::move(make), std::move(done)), std::move(failed));
+  }
+  template <class Make, class Done, FailureReceiver Failed>
+  void replace(const TaskKind& kind, Make make, Done done, Failed failed) {
+    add(kind.number_, workOf(std::move(make), std::move(done)), std::move(failed));
+  }
+
+  /// Asks the task of this kind to stop; its reports are still delivered.
+  void stop(const TaskKind& kind);
+  /// Drops the task of this kind: neither its reports nor its failure are delivered.
+  void cancel(const TaskKind& kind);
   bool isBusy() const { return pending_ > 0; }
 
  Q_SIGNALS:
   void busyChanged();
-  void failed(const QString& message);
 
  protected:
   /// Handles a report of the worker.
@@ -71,11 +86,22 @@ class TaskRunner : public QObject {
 
  private:
   class Thread;
+  using Failure = std::function<void(const QString&)>;
 
-  bool isNewest(const QString& key, std::uint64_t number) const;
-  void end(const QString& key, std::uint64_t number, const QString& error);
+  template <class Make, class Done>
+  static Work workOf(Make make, Done done) {
+    return [make = std::move(make), done = std::move(done)](const std::stop_token& stop,
+                                                            const Report& report) {
+      auto value = std::make_shared<decltype(make(stop))>(make(stop));
+      report([value, done] { done(std::move(*value)); });
+    };
+  }
+  /// `kind` 0: of no kind.
+  void add(std::uint64_t kind, Work work, Failure failed);
+  bool isUsed(std::uint64_t kind, std::uint64_t number) const;
+  void end(std::uint64_t kind, std::uint64_t number, const QString& error, const Failure& failed);
 
-  std::map<QString, std::uint64_t> newest_;  ///< number of the newest task of each key
+  std::map<std::uint64_t, std::uint64_t> newest_;  ///< number of the newest task of each kind
   std::uint64_t count_ = 0;
   int pending_ = 0;
   std::unique_ptr<Thread> thread_;

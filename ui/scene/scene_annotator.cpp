@@ -80,8 +80,8 @@ void SceneLoupe::lookAt(const SceneShot& shot, const std::optional<QPointF>& pix
 void SceneLoupe::order() {
   const Viewpoint view = magnifiedView(shot_.view, *pixel_, magnification_, width());
   const auto backdrop = magnifiedBackdrop(shot_.backdrop, *pixel_, magnification_, width());
-  runner_.start(
-      QStringLiteral("loupe"),
+  runner_.replace(
+      drawing_,
       [content = shot_.content, look = shot_.look, view, backdrop,
        ratio = devicePixelRatioF()](const std::stop_token&) {
         return drawScenePicture(*content, look, view, backdrop, ratio);
@@ -89,6 +89,12 @@ void SceneLoupe::order() {
       [this, view](const QImage& picture) {
         picture_ = picture;
         picture_view_ = view;
+        problem_.clear();
+        update();
+      },
+      [this](const QString& message) {
+        picture_ = {};
+        problem_ = message;
         update();
       });
 }
@@ -102,7 +108,8 @@ void SceneLoupe::paintEvent(QPaintEvent*) {
   }
   painter.setRenderHint(QPainter::Antialiasing, true);
   paintLoupeCross(painter, size());
-  paintLoupeFoot(painter, *this, tr("%1x").arg(magnification_, 0, 'g', 3));
+  paintLoupeFoot(painter, *this,
+                 problem_.isEmpty() ? tr("%1x").arg(magnification_, 0, 'g', 3) : problem_);
 }
 
 SceneAnnotator::SceneAnnotator(QWidget& canvas, AnnotationController& annotation,

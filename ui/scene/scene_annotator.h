@@ -71,7 +71,9 @@ class SceneLoupe : public QWidget {
   std::optional<QPointF> pixel_;
   QImage picture_;
   Viewpoint picture_view_;
+  QString problem_;  ///< why there is no picture
   TaskRunner runner_;
+  TaskKind drawing_;
 };
 
 /// Annotating in the scene. While the operator places annotations, a click sets the station side:

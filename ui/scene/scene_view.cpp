@@ -211,8 +211,8 @@ void SceneView::orderBackdrop() {
     backdrop_ = grayImage(loaded_case->image.view());
     return;
   }
-  runner_.start(
-      QStringLiteral("backdrop"),
+  runner_.replace(
+      undistorting_,
       [loaded_case](const std::stop_token&) {
         return grayImage(
             sessions::undistort(loaded_case->source.camera, loaded_case->image.view()).view());
@@ -221,7 +221,8 @@ void SceneView::orderBackdrop() {
         if (backdrop_of_.lock() != loaded_case) return;
         backdrop_ = gray;
         updateView();
-      });
+      },
+      reportTo(this, &SceneView::failed));
 }
 
 void SceneView::updateNote() {

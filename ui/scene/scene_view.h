@@ -56,6 +56,7 @@ class SceneView : public QWidget {
   void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  Q_SIGNALS:
+  void failed(const QString& message);
   /// The point of the station under the pointer, or empty.
   void stationPlaceHovered(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
@@ -94,6 +95,7 @@ class SceneView : public QWidget {
   QImage backdrop_;  ///< the case's image without lens distortion; null until it is computed
   std::weak_ptr<const sessions::LoadedCase> backdrop_of_;
   TaskRunner runner_;
+  TaskKind undistorting_;
   PoseRole role_ = PoseRole::kEstimate;  ///< of the pose when looking through the camera
   double free_opacity_ = 1.0;
   double through_opacity_ = 0.35;

@@ -30,6 +30,11 @@ std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
   return std::nullopt;
 }
 
+QString leftText(const CaseOpening& left) {
+  return ViewState::tr("%1 is no longer shown: nothing was changed.")
+      .arg(QString::fromStdString(left.id));
+}
+
 const sessions::SessionCase* shownCase(const Document& document, const ViewState& state) {
   return state.currentCase() ? document.session().findCase(state.currentCase()->source.id)
                              : nullptr;
@@ -64,8 +69,18 @@ std::optional<Pose> ViewState::knownPose() const {
   return annotated_;
 }
 
+void ViewState::openCase(const std::string& id) { show(id, nullptr); }
+
 void ViewState::setCase(CasePtr loaded_case) {
-  Q_EMIT aboutToSetCase(loaded_case ? loaded_case->source.id : std::string());
+  const std::string id = loaded_case ? loaded_case->source.id : std::string();
+  show(id, std::move(loaded_case));
+}
+
+void ViewState::show(const std::string& id, CasePtr loaded_case) {
+  Q_EMIT aboutToSetCase(id);
+  static std::uint64_t count = 0;
+  const bool same = !id.empty() && id == opening_.id && loaded_case;
+  if (!same) opening_ = {id, ++count};
   case_ = std::move(loaded_case);
   snapshot_.reset();
   cursor_ = {};
@@ -74,7 +89,8 @@ void ViewState::setCase(CasePtr loaded_case) {
   annotated_.reset();
   blind_ = false;
   alternative_.reset();
-  Q_EMIT changed(ViewChange::kAll);
+  Q_EMIT changed(same ? ViewChanges(ViewChange::kAll) & ~ViewChanges(ViewChange::kOtherCase)
+                      : ViewChanges(ViewChange::kAll));
 }
 
 void ViewState::replaceCase(CasePtr loaded_case) {

@@ -42,10 +42,23 @@ enum class ViewChange {
   kNudgedPose = 1 << 4,
   kAnnotatedPose = 1 << 5,
   kAlternative = 1 << 6,
-  kAll = (1 << 7) - 1,
+  kOtherCase = 1 << 7,  ///< the open case is another one, or none
+  kAll = (1 << 8) - 1,
 };
 Q_DECLARE_FLAGS(ViewChanges, ViewChange)
 Q_DECLARE_OPERATORS_FOR_FLAGS(ViewChanges)
+
+/// The case that is open, from its opening until another case or session is. A dialog keeps the
+/// value of when it opened, and drops its result where the opening is another one by then.
+struct CaseOpening {
+  std::string id;            ///< empty: none
+  std::uint64_t number = 0;  ///< of all openings of the program
+
+  bool operator==(const CaseOpening&) const = default;
+};
+
+/// "bc-000004 is no longer shown: nothing was changed."
+QString leftText(const CaseOpening& left);
 
 /// The view state of the whole window: one case, its run so far, one position in the run, one
 /// template, and the nudged pose. All views show this state and change it only here; it is not part
@@ -59,7 +72,9 @@ class ViewState : public QObject {
   using CasePtr = std::shared_ptr<const sessions::LoadedCase>;
   using SnapshotPtr = std::shared_ptr<const sessions::LocalizationTrace>;
 
-  /// nullptr while no case is open.
+  /// The open case. It is the shown one, or none is shown: no view shows another.
+  const CaseOpening& opening() const { return opening_; }
+  /// nullptr while no case is open, and until the open one is read.
   const CasePtr& currentCase() const { return case_; }
   /// nullptr before the first run of the case.
   const SnapshotPtr& snapshot() const { return snapshot_; }
@@ -83,6 +98,9 @@ class ViewState : public QObject {
   /// The same; the identity when there is none.
   Pose shownPose() const { return knownPose().value_or(Pose()); }
 
+  /// Empties every view: this case is about to be read. Empty: no case is open.
+  void openCase(const std::string& id);
+  /// Shows a case; nullptr opens none.
   void setCase(CasePtr loaded_case);
   /// The current case after an edit of its inputs: the shown run, now stale, the position in it and
   /// the nudged pose stay.
@@ -121,7 +139,9 @@ class ViewState : public QObject {
 
  private:
   int lastIteration() const;
+  void show(const std::string& id, CasePtr loaded_case);
 
+  CaseOpening opening_;
   CasePtr case_;
   SnapshotPtr snapshot_;
   RunCursor cursor_;

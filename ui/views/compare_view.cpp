@@ -23,8 +23,6 @@ namespace {
 
 constexpr int kBoxMargin = 8;
 
-QString comparisonTask() { return QStringLiteral("compare"); }
-
 /// How far a pose is from the shown run's, the seed's without one.
 QString apartText(const sessions::LoadedCase& loaded, const sessions::LocalizationTrace* shown_run,
                   const Pose& other) {
@@ -125,12 +123,13 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
   return choices;
 }
 
-/// Keeps what is chosen where it is still there.
+/// Keeps what is chosen where it is still there, also while another case is read.
 void CompareView::fill() {
   if (!isVisible()) return;
   const QStringList listed = choices();
   choices_ = choicesNow();
-  if (choices() != listed || box_->count() == 0) {  // a list that is open stays
+  // A list that is open stays.
+  if (!choices_.empty() && (choices() != listed || box_->count() == 0)) {
     const QString former = box_->currentText();
     box_->clear();
     box_->addItems(choices());
@@ -161,14 +160,14 @@ void CompareView::showOnboardRun() {
 void CompareView::order() {
   const auto& shown = state_.currentCase();
   const auto index = static_cast<std::size_t>(std::max(0, box_->currentIndex()));
-  tasks_.cancel(comparisonTask());
+  tasks_.cancel(comparing_);
   Q_EMIT chosen(index < choices_.size() && choices_[index].onboard);
   if (!shown || index >= choices_.size()) return view_->setImage({});
   std::optional<sessions::SessionCase> other_case;
   if (const auto* other = document_.session().findCase(choices_[index].case_id))
     other_case = *other;
-  tasks_.start(
-      comparisonTask(),
+  tasks_.replace(
+      comparing_,
       [shown, choice = choices_[index], other_case, pose = state_.shownPose(),
        shown_run = state_.snapshot()](const std::stop_token&) {
         Picture picture{shown, pose, nullptr, choice.line, {}};

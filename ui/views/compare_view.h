@@ -9,6 +9,7 @@
 #include <QWidget>
 
 #include "sessions/session/run_record.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 
@@ -19,7 +20,6 @@ namespace boresight::ui {
 class Document;
 class ImagePanel;
 class ImageView;
-class TaskRunner;
 
 /// A second canvas next to the image: the seed, the truth, another run of the case or another
 /// camera of its rig. Zoom and pointer of both are linked.
@@ -83,6 +83,7 @@ class CompareView : public QWidget {
   Document& document_;
   ViewState& state_;
   TaskRunner& tasks_;
+  TaskKind comparing_;
   QComboBox* box_;
   ImageView* view_;
   ViewState::SnapshotPtr onboard_;

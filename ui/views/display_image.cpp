@@ -124,9 +124,8 @@ void DisplayImage::showCase() {
   setPicture(core_);
   Q_EMIT levelsChanged();
   if (!case_) return;
-  tasks_.start(
-      QStringLiteral("samples"),
-      [input = case_->source.image](const std::stop_token&) { return readFor(input); },
+  tasks_.replace(
+      reading_, [input = case_->source.image](const std::stop_token&) { return readFor(input); },
       [this, source = case_->source.image.source](ReadSamples read) {
         if (!case_ || !(case_->source.image.source == source)) return;
         automatic_ = read.automatic;
@@ -135,7 +134,8 @@ void DisplayImage::showCase() {
         levels_ = firstLevels(*samples_, automatic_);
         Q_EMIT levelsChanged();
         makePicture();
-      });
+      },
+      reportTo(this, &DisplayImage::failed));
 }
 
 void DisplayImage::setShowsCore(bool shows_core) {
@@ -164,18 +164,19 @@ void DisplayImage::setFullLevels() {
 
 void DisplayImage::makePicture() {
   if (shows_core_ || !samples_) {
-    tasks_.cancel(QStringLiteral("stretch"));
+    tasks_.cancel(stretching_);
     setPicture(core_);
     return;
   }
-  tasks_.start(
-      QStringLiteral("stretch"),
+  tasks_.replace(
+      stretching_,
       [samples = samples_, levels = levels_](const std::stop_token&) {
         return stretched(*samples, levels);
       },
       [this, samples = samples_](const QImage& picture) {
         if (samples == samples_ && !shows_core_) setPicture(picture);
-      });
+      },
+      reportTo(this, &DisplayImage::failed));
 }
 
 void DisplayImage::setPicture(const QImage& picture) {

@@ -11,11 +11,10 @@
 
 #include "core/base/image.h"
 #include "sessions/io/images/image_file.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
-
-class TaskRunner;
 
 /// A copy of an image's 8-bit pixels.
 QImage grayImage(const boresight::ImageView& image);
@@ -71,6 +70,7 @@ class DisplayImage : public QObject {
 
  Q_SIGNALS:
   void pictureChanged();
+  void failed(const QString& message);
   /// Levels, samples, or the kind of display have changed.
   void levelsChanged();
 
@@ -81,6 +81,8 @@ class DisplayImage : public QObject {
 
   ViewState& state_;
   TaskRunner& tasks_;
+  TaskKind reading_;
+  TaskKind stretching_;
   ViewState::CasePtr case_;
   QImage core_;
   QImage picture_;

@@ -62,6 +62,7 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   setHint({});
   buildTools();
   connect(display_, &DisplayImage::pictureChanged, this, &ImagePanel::showImage);
+  connect(display_, &DisplayImage::failed, this, &ImagePanel::failed);
   connect(view_, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
   connect(view_, &ImageView::cursorLeft, this, [this] {
     Q_EMIT placeText(QString());
@@ -264,21 +265,21 @@ void ImagePanel::askForPoseLines() {
   const PoseLines wanted = {iteration, iteration && isCorrected(*iteration, state_.cursor().stage)};
   if (wanted == pose_lines_) return;
   pose_lines_ = wanted;
-  const QString key = QStringLiteral("pose lines");
   if (!iteration) {
-    tasks_.cancel(key);
+    tasks_.cancel(drawing_pose_);
     view_->setPart(LayerId::kIterationEdges, &Layer::lines, nullptr);
     return;
   }
-  tasks_.start(
-      key,
+  tasks_.replace(
+      drawing_pose_,
       [wanted, loaded_case = state_.currentCase()](const std::stop_token&) {
         return wanted.corrected ? linesOf(*loaded_case, wanted.iteration->camera_from_station)
                                 : linesOf(wanted.iteration->render, wanted.iteration->level);
       },
       [this, wanted](const LinesPtr& lines) {
         if (wanted == pose_lines_) view_->setPart(LayerId::kIterationEdges, &Layer::lines, lines);
-      });
+      },
+      reportTo(this, &ImagePanel::failed));
 }
 
 /// What a stage made is shown while the operator looks at it.
@@ -316,25 +317,23 @@ void ImagePanel::askForRenders() {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   if (!loaded_case) return;
   if (loaded_case->source.has_seed)
-    askForRender(LayerId::kSeedEdges, "seed edges", loaded_case->source.camera_from_station_seed);
+    askForRender(LayerId::kSeedEdges, loaded_case->source.camera_from_station_seed);
   if (const auto truth = poseOf(state_, PoseRole::kTruth))
-    askForRender(LayerId::kTruthEdges, "truth edges", *truth);
+    askForRender(LayerId::kTruthEdges, *truth);
   if (const auto& other = state_.alternative()) {
-    if (other->has_pose)
-      askForRender(LayerId::kHypothesisEdges, "hypothesis' edges", other->camera_from_station);
-    if (!other->chosen)
-      askForRender(LayerId::kChosenEdges, "chosen pose's edges", other->camera_from_station_chosen);
+    if (other->has_pose) askForRender(LayerId::kHypothesisEdges, other->camera_from_station);
+    if (!other->chosen) askForRender(LayerId::kChosenEdges, other->camera_from_station_chosen);
   }
   askForAgreement();
 }
 
-void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_from_station) {
+void ImagePanel::askForRender(LayerId id, const Pose& camera_from_station) {
   bool& asked = asked_[static_cast<std::size_t>(id)];
   if (asked || !style(id).visible) return;
   asked = true;
   const ViewState::CasePtr loaded_case = state_.currentCase();
-  tasks_.start(
-      QString::fromLatin1(key),
+  tasks_.replace(
+      drawing_[static_cast<std::size_t>(id)],
       [loaded_case, camera_from_station](const std::stop_token&) {
         return linesOf(*loaded_case, camera_from_station);
       },
@@ -343,7 +342,8 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
         if (current && asked_[static_cast<std::size_t>(id)] &&
             loaded_case->source.id == current->source.id)
           view_->setPart(id, &Layer::lines, lines);
-      });
+      },
+      reportTo(this, &ImagePanel::failed));
 }
 
 void ImagePanel::askForAgreement() {
@@ -351,8 +351,8 @@ void ImagePanel::askForAgreement() {
   if (!iteration || !style(LayerId::kAgreement).visible || agreement_of_ == iteration) return;
   if (!state_.snapshot()->edges) return;
   agreement_of_ = iteration;
-  tasks_.start(
-      QStringLiteral("agreement"),
+  tasks_.replace(
+      comparing_,
       [iteration, edges = state_.snapshot()->edges](const std::stop_token&) -> MapsPtr {
         return std::make_shared<const sessions::AgreementMaps>(sessions::agreementOf(
             iteration->render, edges->level[static_cast<std::size_t>(iteration->level)]));
@@ -360,7 +360,8 @@ void ImagePanel::askForAgreement() {
       [this, iteration](const MapsPtr& maps) {
         if (agreement_of_ == iteration)
           view_->setPart(LayerId::kAgreement, &Layer::bits, agreementBits(maps, iteration->level));
-      });
+      },
+      reportTo(this, &ImagePanel::failed));
 }
 
 /// The point of the station at a pixel; empty outside the station, and while no pose is known.

@@ -13,6 +13,7 @@
 
 #include "sessions/trace/picture_data.h"
 #include "sessions/trace/surface_point.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 
@@ -27,7 +28,6 @@ class DisplayImage;
 class ImageView;
 class LayerLegend;
 class MeasureTool;
-class TaskRunner;
 
 /// The image of the current case with the layers of the current iteration; over it the tools, the
 /// legend and the shown iteration. Follows the view state; lines of poses and the agreement are
@@ -70,6 +70,8 @@ class ImagePanel : public QWidget {
   QAction& coreView() { return *core_view_; }
 
  Q_SIGNALS:
+  /// Something of the image cannot be read or drawn; one sentence.
+  void failed(const QString& message);
   void stylesChanged();
   /// For the status bar: pixel, gray value, and the station point where the shown pose covers it.
   void placeText(const QString& text);
@@ -91,7 +93,7 @@ class ImagePanel : public QWidget {
   void showPlace(const QPointF& pixel);
   void showContextMenu(const QPointF& pixel, const QPoint& global);
   void askForRenders();
-  void askForRender(LayerId id, const char* key, const Pose& camera_from_station);
+  void askForRender(LayerId id, const Pose& camera_from_station);
   void forget(LayerId id);
   void showAlternative();
   void askForAgreement();
@@ -107,6 +109,9 @@ class ImagePanel : public QWidget {
 
   ViewState& state_;
   TaskRunner& tasks_;
+  TaskKind drawing_pose_;
+  TaskKind comparing_;
+  std::array<TaskKind, kLayerCount> drawing_;  ///< of each layer
   ImageView* view_;
   QSplitter* canvases_;
   DisplayImage* display_;

@@ -58,41 +58,53 @@ void AnnotationFiles::attempt(Action&& action) {
   }
 }
 
+/// Whether the case that a dialog was opened for is still open; tells where it is not.
+bool AnnotationFiles::isStillOpen(const CaseOpening& seen) {
+  if (seen == parts_.state.opening()) return true;
+  Q_EMIT failed(leftText(seen));
+  return false;
+}
+
 void AnnotationFiles::importAnnotations() {
+  const CaseOpening seen = parts_.state.opening();
   const QString file =
       QFileDialog::getOpenFileName(&window_, tr("Import annotations"),
                                    inSessionFolder(parts_.document, {}), annotationsFilter());
-  if (file.isEmpty() || !mayReplaceAnnotations()) return;
+  if (file.isEmpty() || !isStillOpen(seen) || !mayReplaceAnnotations() || !isStillOpen(seen))
+    return;
   attempt([&, path = std::filesystem::path(file.toStdString())] {
     parts_.annotation.finishMove();
     const sessions::ImportReport report =
         sessions::importAnnotations(parts_.document.session(), caseId(), path, true);
-    parts_.document.edit(report.session, tr("Import annotations of %1").arg(fileNameOf(path)));
+    if (!parts_.document.edit(report.session, tr("Import annotations of %1").arg(fileNameOf(path))))
+      return;
     Q_EMIT noted(tr("Annotations read from %1.").arg(fileNameOf(path)));
   });
 }
 
 void AnnotationFiles::exportAnnotations() {
+  parts_.annotation.finishMove();
+  const sessions::Annotations annotations = parts_.annotation.annotations();  // of the shown case
   const auto file = askForNewFile(window_, tr("Export the annotations of this case"),
                                   inSessionFolder(parts_.document, QStringLiteral("points.json")),
                                   annotationsFilter());
   if (file.empty()) return;
   attempt([&] {
-    sessions::writeAnnotations(file, parts_.annotation.annotations());
+    sessions::writeAnnotations(file, annotations);
     Q_EMIT noted(tr("Annotations written to %1.").arg(fileNameOf(file)));
   });
 }
 
 void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const QString& name) {
+  parts_.annotation.finishMove();
+  const sessions::Session session = parts_.document.session();
   const std::filesystem::path folder =
       QFileDialog::getSaveFileName(&window_, title, inSessionFolder(parts_.document, name))
           .toStdString();
   if (folder.empty()) return;
-  parts_.annotation.finishMove();
   parts_.exports.start(
       writingText(folder), tr("annotated poses of all cases"),
-      [exporter, folder,
-       session = parts_.document.session()](const ExportRunner::Progress& progress) {
+      [exporter, folder, session](const ExportRunner::Progress& progress) {
         return exporter(session, folder, sessions::annotatedPoses(session, {}), progress);
       },
       [this, folder](const sessions::ExportReport& report) {
@@ -101,10 +113,11 @@ void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const
 }
 
 void AnnotationFiles::importPoses(Importer importer, const QString& title) {
+  const CaseOpening seen = parts_.state.opening();
   const std::filesystem::path folder =
       QFileDialog::getExistingDirectory(&window_, title, inSessionFolder(parts_.document, {}))
           .toStdString();
-  if (folder.empty()) return;
+  if (folder.empty() || !isStillOpen(seen)) return;
   attempt([&] {
     parts_.annotation.finishMove();
     const sessions::ImportReport report = importer(parts_.document.session(), folder, true);
@@ -117,11 +130,12 @@ void AnnotationFiles::importPoses(Importer importer, const QString& title) {
 }
 
 void AnnotationFiles::openLandmarks() {
+  const CaseOpening seen = parts_.state.opening();
   const std::filesystem::path file =
       QFileDialog::getOpenFileName(&window_, tr("Open landmarks of the station"),
                                    inSessionFolder(parts_.document, {}), tr("Landmarks (*.json)"))
           .toStdString();
-  if (file.empty()) return;
+  if (file.empty() || !isStillOpen(seen)) return;
   attempt([&] {
     const auto landmarks = sessions::readLandmarks(file);  // before the session names it
     if (parts_.annotation.setLandmarksFile(file))
@@ -130,6 +144,7 @@ void AnnotationFiles::openLandmarks() {
 }
 
 void AnnotationFiles::saveLandmarks() {
+  const CaseOpening seen = parts_.state.opening();
   const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
   const auto file =
       askForNewFile(window_, tr("Save the annotations as landmarks"),
@@ -137,7 +152,7 @@ void AnnotationFiles::saveLandmarks() {
                         ? fromText(session_case->landmarks->string())
                         : inSessionFolder(parts_.document, QStringLiteral("landmarks.json")),
                     tr("Landmarks (*.json)"));
-  if (file.empty()) return;
+  if (file.empty() || !isStillOpen(seen)) return;
   attempt([&] {
     AnnotationController& annotation = parts_.annotation;
     sessions::writeLandmarks(

@@ -50,6 +50,7 @@ class AnnotationFiles : public QObject {
   /// file.
   void saveLandmarks();
   std::string caseId() const { return shownCaseId(parts_.document, parts_.state); }
+  bool isStillOpen(const CaseOpening& seen);
   bool mayReplaceAnnotations();
   template <class Action>
   void attempt(Action&& action);

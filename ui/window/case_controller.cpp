@@ -7,9 +7,9 @@
 
 #include <QCoreApplication>
 
-#include "sessions/io/files/errors.h"
 #include "sessions/session/views_run.h"
 #include "ui/models/text.h"
+#include "ui/run/document_tasks.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 
@@ -44,8 +44,13 @@ RunCursor atEndOf(const sessions::LocalizationTrace& run) {
 }  // namespace
 
 CaseController::CaseController(Document& document, ViewState& state, RunController& run,
-                               TaskRunner& tasks, QObject* parent)
-    : QObject(parent), document_(document), state_(state), run_(run), tasks_(tasks) {
+                               TaskRunner& tasks, DocumentTasks& of_document, QObject* parent)
+    : QObject(parent),
+      document_(document),
+      state_(state),
+      run_(run),
+      tasks_(tasks),
+      of_document_(of_document) {
   connect(&document_, &Document::opened, this, &CaseController::documentOpened);
   connect(&document_, &Document::changed, this, &CaseController::documentChanged);
   connect(&run_, &RunController::snapshotChanged, this, [this] {
@@ -62,7 +67,13 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   connect(&batch_, &Batch::changed, this, &CaseController::batchChanged);
   connect(&batch_, &Batch::caseEnded, this,
           [this](const QString& id, const ViewState::SnapshotPtr& trace) {
-            store({batch_session_, id.toStdString(), trace, {}, {}, true});
+            keep({.session = batch_session_,
+                  .case_id = id.toStdString(),
+                  .snapshot = trace,
+                  .continued = {},
+                  .views = {},
+                  .batch = batches_,
+                  .of_batch = true});
           });
   connect(&batch_, &Batch::caseFailed, this, [this](const QString&, const QString& message) {
     batch_failures_ << message;
@@ -70,42 +81,70 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   });
 }
 
+QString CaseController::caseId() const { return fromText(openId()); }
+
 void CaseController::documentOpened() {
-  case_id_.clear();
   endBatch();
   batch_.dropSummary();
   unstored_.clear();
+  leaveCase();
+  asked_.reset();
+  state_.setCase(nullptr);  // not of another document, nor of this one before its recovery
+  openFirst();
+}
+
+/// Drops what was requested for the open case.
+void CaseController::leaveCase() {
+  for (const TaskKind* kind : {&reading_, &reading_run_, &showing_run_}) tasks_.cancel(*kind);
+  run_when_loaded_.reset();
+  reads_ = false;
+  reads_run_ = false;
+  load_problem_.clear();
+  input_concern_.reset();
+  dropRun();
+}
+
+/// The case that was shown last, else the first.
+void CaseController::openFirst() {
   const sessions::Session& session = document_.session();
   std::string first = session.view.case_id;
   if (!session.findCase(first)) first = session.cases.empty() ? "" : session.cases.front()->id;
-  state_.setCase(nullptr);  // not of another document, nor of this one before its recovery
   if (!first.empty()) return chooseCase(fromText(first));
-  run_.reset({});
-  Q_EMIT caseChosen(QString());
+  if (openId().empty()) return;
+  leaveCase();
+  state_.setCase(nullptr);
 }
 
 void CaseController::documentChanged() {
-  // The session was saved: perhaps there is room now.
-  if (!unstored_.empty() && (document_.file() != unstored_file_ || !document_.isModified()))
-    for (const EndedRun& ended : std::exchange(unstored_, {})) store(ended);
-  const sessions::SessionCase* session_case = sessionCase();
-  if (!session_case) return documentOpened();
+  storeAgain();
+  if (const sessions::SessionCase* session_case = sessionCase())
+    showChange(*session_case);
+  else
+    openFirst();  // the open case was removed
+}
+
+void CaseController::showChange(const sessions::SessionCase& session_case) {
   // Another seed, mask or image than the one that is shown.
-  if (!asked_ || !sameButNudge(*asked_, *session_case)) load(case_id_);
-  if (!(session_case->camera_from_station_working == working_)) showNudgedPose();
+  if (!asked_ || !sameButNudge(*asked_, session_case)) load();
+  if (!(session_case.camera_from_station_working == working_)) showNudgedPose();
   Q_EMIT stalenessChanged();
 }
 
 void CaseController::chooseCase(const QString& id) {
-  if (id == case_id_) return;
-  case_id_ = id;
-  dropRun();
-  Q_EMIT caseChosen(id);
-  load(id);
+  if (id == caseId() || !document_.session().findCase(id.toStdString())) return;
+  if (run_.state() == RunState::kWorking)
+    Q_EMIT noted(tr("The run of %1 was stopped: %2 was opened.").arg(caseId(), id));
+  leaveCase();
+  state_.openCase(id.toStdString());
+  load();
+}
+
+void CaseController::readAgain() {
+  if (!state_.currentCase() && !reads_) load();
 }
 
 const sessions::SessionCase* CaseController::sessionCase() const {
-  return document_.session().findCase(case_id_.toStdString());
+  return document_.session().findCase(openId());
 }
 
 void CaseController::dropRun() {
@@ -129,56 +168,54 @@ void CaseController::showNudgedPose() {
     state_.setNudgedPose(working_);
 }
 
-void CaseController::load(const QString& id) {
-  const sessions::SessionCase* session_case = document_.session().findCase(id.toStdString());
+void CaseController::load() {
+  const sessions::SessionCase* session_case = sessionCase();
   if (!session_case) return;
   asked_ = *session_case;
+  reads_ = true;
   load_problem_.clear();
   input_concern_.reset();
-  const ViewState::CasePtr before = state_.currentCase();
-  tasks_.start(
-      QStringLiteral("load case"),
-      [source = *session_case, before](const std::stop_token&) {
-        return before && before->source.id == source.id ? sessions::reloadCase(*before, source)
-                                                        : sessions::loadCase(source);
+  tasks_.replace(
+      reading_,
+      [source = *session_case, before = state_.currentCase()](const std::stop_token&) {
+        return before ? sessions::reloadCase(*before, source) : sessions::loadCase(source);
       },
-      [this, id](std::shared_ptr<const sessions::LoadedCase> read) { loaded(id, std::move(read)); },
-      [this, id](const QString& problem) { loadFailed(id, problem); });
+      [this](const ViewState::CasePtr& read) { loaded(read); },
+      [this](const QString& problem) { loadFailed(problem); });
 }
 
-/// The case that was shown before is not shown under this one's name.
-void CaseController::loadFailed(const QString& id, const QString& message) {
-  if (id != case_id_) return;
+void CaseController::loadFailed(const QString& message) {
+  reads_ = false;
   run_when_loaded_.reset();
   load_problem_ = message;
-  const ViewState::CasePtr& shown = state_.currentCase();
-  if (shown && fromText(shown->source.id) != id) state_.setCase(nullptr);
   Q_EMIT failed(message);
 }
 
-void CaseController::loaded(const QString& id,
-                            std::shared_ptr<const sessions::LoadedCase> loaded_case) {
-  if (id != case_id_) return;
-  dropRun();
-  const ViewState::CasePtr& before = state_.currentCase();
-  const bool edited = before && before->source.id == loaded_case->source.id;
+void CaseController::loaded(const ViewState::CasePtr& loaded_case) {
+  reads_ = false;
+  const ViewState::CasePtr before = state_.currentCase();
+  const bool same_inputs = before && sessions::inputsDigest(before->source) ==
+                                         sessions::inputsDigest(loaded_case->source);
   // A run that has not ended cannot continue with other inputs; a finished one stays and is stale.
-  if (edited && state_.snapshot() && state_.snapshot()->finished) {
-    state_.replaceCase(std::move(loaded_case));
+  if (!same_inputs && run_.state() == RunState::kWorking)
+    Q_EMIT noted(tr("The run of %1 was stopped: its inputs have changed.").arg(caseId()));
+  if (!same_inputs) dropRun();
+  if (same_inputs || (before && state_.snapshot() && state_.snapshot()->finished)) {
+    state_.replaceCase(loaded_case);
     judgeInputs();
     Q_EMIT stalenessChanged();
     return runIfWaiting();
   }
-  state_.setCase(std::move(loaded_case));
+  state_.setCase(loaded_case);
   judgeInputs();
   showNudgedPose();
-  loadLatestRun(id);
+  loadLatestRun();
 }
 
 /// By the run's own checks, before the operator requests a run.
 void CaseController::judgeInputs() {
-  tasks_.start(
-      QStringLiteral("judge inputs"),
+  tasks_.replace(
+      judging_,
       [loaded = state_.currentCase()](const std::stop_token&) {
         return std::pair(loaded, sessions::inputConcern(*loaded));
       },
@@ -186,21 +223,22 @@ void CaseController::judgeInputs() {
         if (judged.first != state_.currentCase()) return;
         input_concern_ = judged.second;
         Q_EMIT stalenessChanged();
-      });
+      },
+      reportTo(this, &CaseController::failed));
 }
 
-void CaseController::loadLatestRun(const QString& id) {
-  const sessions::RunRecord* record = document_.session().lastRunOf(id.toStdString());
+void CaseController::loadLatestRun() {
+  const sessions::RunRecord* record = document_.session().lastRunOf(openId());
   reads_run_ = record && !run_when_loaded_;
   if (!reads_run_) {  // it is run now
     Q_EMIT stalenessChanged();
     return runIfWaiting();
   }
-  tasks_.start(
-      QStringLiteral("load run"), [run = *record](const std::stop_token&) { return readRun(run); },
-      [this, id](ViewState::SnapshotPtr snapshot) {
+  tasks_.replace(
+      reading_run_, [run = *record](const std::stop_token&) { return readRun(run); },
+      [this](ViewState::SnapshotPtr snapshot) {
         reads_run_ = false;
-        if (id != case_id_ || run_is_prepared_) return;
+        if (run_is_prepared_) return;
         state_.setSnapshot(std::move(snapshot));
         Q_EMIT stalenessChanged();
       },
@@ -219,10 +257,10 @@ LocalizerOptions CaseController::options() const {
 QString CaseController::staleness() const {
   const ViewState::SnapshotPtr& shown = state_.snapshot();
   if (!shown || shown->replayed) return {};
-  const std::string id = case_id_.toStdString();
+  const std::string id = openId();
   const sessions::RunRecord* record =
       shown->digest.empty() ? nullptr : sessions::findRun(document_.session(), id, shown->digest);
-  if (!record && storing_) return {};  // the run before says nothing of one that has just ended
+  if (!record && isStoring()) return {};  // the run before says nothing of one that has just ended
   if (!record) record = document_.session().lastRunOf(id);
   if (!record) return {};
   const sessions::Staleness stale =
@@ -242,10 +280,11 @@ void CaseController::prepareRun(RunInputs inputs) {
 }
 
 void CaseController::advance(StepUntil until) {
-  if (!state_.currentCase()) return;
+  if (!sessionCase()) return;
   if (!isLoaded()) {
     run_when_loaded_ = until;
-    return load(case_id_);
+    if (!reads_) load();
+    return;
   }
   start(
       [&] {
@@ -291,15 +330,14 @@ QString CaseController::whyNotRunnable() const {
 }
 
 QString CaseController::whyAlone() const {
-  return fromText(sessions::whyAlone(document_.session(), case_id_.toStdString()));
+  return fromText(sessions::whyAlone(document_.session(), openId()));
 }
 
 void CaseController::runTogether() {
   start([&] {
     requireLoaded();
     if (!whyAlone().isEmpty()) throw std::runtime_error(whyAlone().toStdString());
-    prepareRun({.plan = options(),
-                .others = sessions::otherViews(document_.session(), case_id_.toStdString())});
+    prepareRun({.plan = options(), .others = sessions::otherViews(document_.session(), openId())});
   });
 }
 
@@ -319,7 +357,7 @@ void CaseController::prepareRerun(int iteration) {
         tr("The shown run was made with other views: run it with them again from the start.")
             .toStdString());
   const auto kept = static_cast<std::size_t>(iteration);
-  const std::string id = case_id_.toStdString();
+  const std::string id = openId();
   const sessions::RunRecord* record = document_.session().lastRunOf(id);
   const bool is_recorded = record && record->digest == shown.digest;
   if (!isLoaded() || (is_recorded && record->inputs_sha256 !=
@@ -357,7 +395,11 @@ void CaseController::runAgain() {
 void CaseController::storeRun() {
   run_is_prepared_ = false;
   if (const auto snapshot = run_.snapshot())
-    store({run_session_, case_id_.toStdString(), snapshot, run_.inputs().continued, run_.views()});
+    keep({.session = run_session_,
+          .case_id = run_.inputs().one->source.id,
+          .snapshot = snapshot,
+          .continued = run_.inputs().continued,
+          .views = run_.views()});
 }
 
 /// Written into the session's folder: one, or one of every view.
@@ -371,40 +413,62 @@ std::vector<sessions::RunRecord> CaseController::recordsOf(const EndedRun& ended
   return sessions::storeViews(ended.session, views, file);
 }
 
-void CaseController::store(const EndedRun& ended) {
-  struct Stored {
-    std::vector<sessions::RunRecord> records;
-    QString problem;
-  };
-  ++storing_;
-  // Of a key of its own: no run's storing replaces another's.
-  tasks_.start(
-      QStringLiteral("store run %1").arg(fromText(ended.snapshot->digest)),
-      [ended, file = document_.file()](const std::stop_token&) {
-        try {
-          return Stored{recordsOf(ended, file), {}};
-        } catch (const sessions::OutputError& error) {
-          return Stored{{}, QString::fromUtf8(error.what())};
-        }
+/// From its end on it is known as a run that is not stored.
+void CaseController::keep(EndedRun ended) {
+  unstored_.push_back(std::make_shared<EndedRun>(std::move(ended)));
+  store(unstored_.back());
+}
+
+void CaseController::store(const EndedPtr& ended) {
+  ended->storing = true;
+  ended->problem.clear();
+  of_document_.ofDocument(
+      tr("The run of %1").arg(fromText(ended->case_id)),
+      [run = *ended, file = document_.file()](const std::stop_token&) {
+        return recordsOf(run, file);
       },
-      [this, ended, file = document_.file()](const Stored& stored) {
-        --storing_;
-        // Before it is recorded: a failure is reported at once, and the answer is to save
-        // elsewhere.
-        unstored_file_ = file;
-        unstored_.push_back(ended);
-        if (stored.records.empty()) {
-          Q_EMIT storeFailed(stored.problem);
-          if (!unstored_.empty()) endBatch();  // nor is there room for the next
-        } else if (noteRuns(stored.records)) {
-          std::erase_if(unstored_, [&](const EndedRun& ended_run) {
-            return ended_run.snapshot == ended.snapshot;
-          });
-          Q_EMIT stalenessChanged();
-          if (ended.of_batch) showRunOf(ended.case_id);
-        }
-        if (ended.of_batch) runNext();
-      });
+      [this, ended](const std::vector<sessions::RunRecord>& records) { stored(ended, records); },
+      [this, ended](const QString& problem) { notStored(ended, problem); });
+}
+
+void CaseController::stored(const EndedPtr& ended,
+                            const std::vector<sessions::RunRecord>& records) {
+  // Before it is recorded: a failure is reported at once, and the answer is to save elsewhere.
+  ended->storing = false;
+  ended->problem = tr("The session could not be written.");
+  unstored_file_ = document_.file();
+  if (noteRuns(records)) {
+    std::erase(unstored_, ended);
+    Q_EMIT stalenessChanged();
+    if (ended->of_batch) showRunOf(ended->case_id);
+  }
+  goOnAfter(ended);
+}
+
+void CaseController::notStored(const EndedPtr& ended, const QString& problem) {
+  ended->storing = false;
+  ended->problem = problem;
+  unstored_file_ = document_.file();
+  Q_EMIT storeFailed(problem);
+  if (!unstoredRuns().isEmpty()) endBatch();  // nor can the next be stored
+  goOnAfter(ended);
+}
+
+/// The session was saved: perhaps there is room now.
+void CaseController::storeAgain() {
+  if (document_.file() == unstored_file_ && document_.isModified()) return;
+  for (const EndedPtr& ended : std::vector(unstored_))
+    if (!ended->storing) store(ended);
+}
+
+/// A batch waits for one run at a time, once.
+void CaseController::goOnAfter(const EndedPtr& ended) {
+  const int batch = std::exchange(ended->batch, 0);
+  if (batch != 0 && batch == batches_) runNext();
+}
+
+bool CaseController::isStoring() const {
+  return std::ranges::any_of(unstored_, [](const EndedPtr& ended) { return ended->storing; });
 }
 
 bool CaseController::noteRuns(const std::vector<sessions::RunRecord>& records) {
@@ -418,20 +482,28 @@ bool CaseController::noteRuns(const std::vector<sessions::RunRecord>& records) {
 
 QStringList CaseController::unstoredRuns() const {
   QStringList ids;
-  for (const EndedRun& ended : unstored_) ids << fromText(ended.case_id);
+  for (const EndedPtr& ended : unstored_)
+    if (!ended->storing) ids << fromText(ended->case_id);
   return ids;
 }
 
+QString CaseController::unstoredReason() const {
+  QString reason;
+  for (const EndedPtr& ended : unstored_)
+    if (!ended->storing) reason = ended->problem;
+  return reason;
+}
+
 void CaseController::finishStoring() {
-  // A store that fails leaves nothing busy.
-  while (storing_ && tasks_.isBusy())
+  while (isStoring() && tasks_.isBusy())
     QCoreApplication::processEvents(
         QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents, kPatience_ms);
 }
 
 void CaseController::runAll(const QStringList& ids) {
-  if (ids == QStringList{case_id_}) return advance(StepUntil::kEnd);
+  if (ids == QStringList{caseId()}) return advance(StepUntil::kEnd);
   batch_failures_.clear();
+  ++batches_;
   batch_.start(ids);
   runNext();
 }
@@ -466,10 +538,9 @@ void CaseController::runNext() {
 
 /// Of a batch, in the views, where they show that case and no other run of it is under way.
 void CaseController::showRunOf(const std::string& case_id) {
-  if (case_id != case_id_.toStdString() || run_.state() == RunState::kWorking || !isLoaded())
-    return;
+  if (case_id != openId() || run_.state() == RunState::kWorking || !isLoaded()) return;
   dropRun();
-  loadLatestRun(case_id_);
+  loadLatestRun();
 }
 
 void CaseController::runIfWaiting() {
@@ -480,27 +551,33 @@ void CaseController::changeInput(const QString& id, sessions::InputKind kind,
                                  const std::filesystem::path& file, const std::string& mesh_unit) {
   const sessions::SessionCase* session_case = document_.session().findCase(id.toStdString());
   if (!session_case) return;
-  tasks_.start(
-      QStringLiteral("change input"),
+  const QString name = fromText(file.filename().string());
+  of_document_.ofCase(
+      changing_[{session_case->id, kind}], session_case->id, tr("%1 for %2").arg(name, id),
       [before = *session_case, kind, file, mesh_unit](const std::stop_token&) {
         return sessions::withInputFile(before, kind, file, mesh_unit);
       },
-      [this, id, file](sessions::SessionCase changed) {
-        document_.edit(sessions::withCase(document_.session(), std::move(changed)),
-                       tr("Use %1 for %2").arg(fromText(file.filename().string()), id));
+      [this, before = *session_case, kind, name, id](const sessions::SessionCase& changed) {
+        if (const auto after = sessions::withInput(document_.session(), kind, before, changed))
+          document_.edit(*after, tr("Use %1 for %2").arg(name, id));
+        else
+          Q_EMIT failed(tr("%1 was not used: that input of %2 has changed since it was chosen.")
+                            .arg(name, id));
       },
-      [this](const QString& problem) { Q_EMIT failed(problem); });
+      reportTo(this, &CaseController::failed));
 }
 
-bool CaseController::editCase(const std::function<void(sessions::SessionCase&)>& change,
+bool CaseController::editCase(const std::string& id,
+                              const std::function<void(sessions::SessionCase&)>& change,
                               const QString& text) {
-  return sessionCase() &&
-         document_.edit(sessions::withChanged(document_.session(), case_id_.toStdString(), change),
-                        text.arg(case_id_));
+  return document_.session().findCase(id) &&
+         document_.edit(sessions::withChanged(document_.session(), id, change),
+                        text.arg(fromText(id)));
 }
 
 void CaseController::useAsSeed(const Pose& camera_from_station) {
   editCase(
+      shownCaseId(document_, state_),
       [&](sessions::SessionCase& changed) {
         changed.has_seed = true;
         changed.camera_from_station_seed = camera_from_station;
@@ -510,32 +587,32 @@ void CaseController::useAsSeed(const Pose& camera_from_station) {
 }
 
 void CaseController::runWithUncertainty(const sessions::DeclaredUncertainty& uncertainty) {
-  if (editCase([&](sessions::SessionCase& changed) { changed.uncertainty = uncertainty; },
-               tr("State the uncertainty of the seed of %1")))
+  if (editCase(
+          shownCaseId(document_, state_),
+          [&](sessions::SessionCase& changed) { changed.uncertainty = uncertainty; },
+          tr("State the uncertainty of the seed of %1")))
     advance(StepUntil::kEnd);
 }
 
 void CaseController::runWithWiderSearch() {
   constexpr double kHalfTurn_deg = 180.0;
-  const sessions::SessionCase* session_case = sessionCase();
-  if (!session_case) return;
-  sessions::DeclaredUncertainty wider = session_case->uncertainty;
+  const sessions::SessionCase* shown = shownCase(document_, state_);
+  if (!shown) return;
+  sessions::DeclaredUncertainty wider = shown->uncertainty;
   wider.rotation_deg.z() = kHalfTurn_deg;
   runWithUncertainty(wider);
 }
 
 void CaseController::keepNudgedPose() {
-  const sessions::SessionCase* shown = shownCase(document_, state_);
-  // In a session that cannot be edited the operator may nudge to look. Without a chosen case
+  // In a session that cannot be edited the operator may nudge to look. Where nothing of it was read
   // another session is open.
-  if (!shown || case_id_.isEmpty() || !document_.readOnlyReason().isEmpty()) return;
-  const auto nudge = [this](sessions::SessionCase& changed) {
-    changed.camera_from_station_working = state_.nudgedPose();
-  };
-  const QString text =
-      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1");
-  const std::string id = shown->id;  // another case may be chosen already
-  document_.edit(sessions::withChanged(document_.session(), id, nudge), text.arg(fromText(id)));
+  if (!asked_ || !document_.readOnlyReason().isEmpty()) return;
+  editCase(
+      shownCaseId(document_, state_),
+      [this](sessions::SessionCase& changed) {
+        changed.camera_from_station_working = state_.nudgedPose();
+      },
+      state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1"));
 }
 
 void CaseController::setOptions(const QString& profile, const LocalizerOptions& options) {
@@ -545,16 +622,16 @@ void CaseController::setOptions(const QString& profile, const LocalizerOptions& 
 
 void CaseController::showRun(const std::string& digest) {
   if (digest.empty()) return;  // findRun would take it for any run
-  const sessions::RunRecord* found =
-      sessions::findRun(document_.session(), case_id_.toStdString(), digest);
+  const sessions::RunRecord* found = sessions::findRun(document_.session(), openId(), digest);
   if (!found || run_.state() == RunState::kWorking) return;
-  tasks_.start(
-      QStringLiteral("load run"), [run = *found](const std::stop_token&) { return readRun(run); },
-      [this, id = case_id_](ViewState::SnapshotPtr snapshot) {
-        if (id != case_id_) return;
+  tasks_.replace(
+      showing_run_, [run = *found](const std::stop_token&) { return readRun(run); },
+      [this](ViewState::SnapshotPtr snapshot) {
+        if (!state_.currentCase() || run_.state() == RunState::kWorking) return;
         state_.setSnapshot(std::move(snapshot));
         state_.setCursor(atEndOf(*state_.snapshot()));
-      });
+      },
+      reportTo(this, &CaseController::failed));
 }
 
 }  // namespace boresight::ui

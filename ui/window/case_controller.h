@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <QObject>
@@ -22,6 +24,7 @@
 namespace boresight::ui {
 
 class Document;
+class DocumentTasks;
 
 /// Connects document, worker and view state: a chosen case is read and shown with its latest run; a
 /// run is shown while it proceeds and stored when it ends.
@@ -30,10 +33,11 @@ class CaseController : public QObject {
 
  public:
   CaseController(Document& document, ViewState& state, RunController& run, TaskRunner& tasks,
-                 QObject* parent = nullptr);
+                 DocumentTasks& of_document, QObject* parent = nullptr);
 
-  const QString& caseId() const { return case_id_; }
-  /// Whether the case is run as soon as it is read.
+  /// Id of the open case, shown or being read; or empty.
+  QString caseId() const;
+  /// Whether the open case is run as soon as it is read.
   bool runsSoon() const { return run_when_loaded_.has_value(); }
   /// Whether the last run of the shown case is being read.
   bool readsRun() const { return reads_run_; }
@@ -57,10 +61,13 @@ class CaseController : public QObject {
   QString whyNotRunnable() const;
 
  public Q_SLOTS:
-  /// Shows another case; a batch continues.
+  /// Opens another case: no case is shown until it is read. A batch continues.
   void chooseCase(const QString& id);
+  /// Runs the open case; as soon as it is read where it is not.
   void advance(boresight::sessions::StepUntil until);
-  /// Runs the case that is being read as soon as it is loaded.
+  /// Reads the open case again where it could not be read.
+  void readAgain();
+  /// Runs the open case as soon as it is read.
   void runOnceLoaded() { run_when_loaded_ = sessions::StepUntil::kEnd; }
   /// Keeps the shown run's iterations before this one and computes the following ones with the
   /// current options.
@@ -80,16 +87,19 @@ class CaseController : public QObject {
   /// Runs the case to its end together with the other views of its rig, as one pose; each gets its
   /// own run.
   void runTogether();
-  /// Cases of ended runs that could not be stored in the session's folder (no room); they are
-  /// stored as soon as the session is saved, there or elsewhere.
+  /// Cases of ended runs that could not be stored in the session; storing them is tried again
+  /// whenever the session is saved, there or elsewhere.
   QStringList unstoredRuns() const;
-  /// Waits until a run that has ended is stored in the session, so that it is not lost.
+  /// Why the last of them could not be stored, one sentence; or empty.
+  QString unstoredReason() const;
+  /// Waits until each run that has ended is stored in the session, or cannot be stored.
   void finishStoring();
-  /// Replaces a case's input by another file, once that is read.
+  /// Replaces a case's input by another file, once that is read; no other input of it changes.
   void changeInput(const QString& id, boresight::sessions::InputKind kind,
                    const std::filesystem::path& file, const std::string& mesh_unit);
+  /// Sets the seed of the shown case.
   void useAsSeed(const boresight::Pose& camera_from_station);
-  /// Sets the seed's uncertainty, and runs the case again.
+  /// Sets the seed's uncertainty in the shown case, and runs it again.
   void runWithUncertainty(const boresight::sessions::DeclaredUncertainty& uncertainty);
   /// The same with any rotation of the seed about the view axis allowed.
   void runWithWiderSearch();
@@ -100,39 +110,49 @@ class CaseController : public QObject {
   void setOptions(const QString& profile, const boresight::LocalizerOptions& options);
 
  Q_SIGNALS:
-  void caseChosen(const QString& id);
-  /// Reading, running or storing something failed; one sentence.
+  /// Reading or running something failed; one sentence.
   void failed(const QString& message);
-  /// There is no room for a run in the session's folder; one sentence.
+  /// A remark for the operator; one sentence.
+  void noted(const QString& message);
+  /// A run cannot be stored in the session; one sentence.
   void storeFailed(const QString& message);
   void stalenessChanged();
   /// A batch has begun, continued with its next case, or ended.
   void batchChanged();
 
  private:
-  /// All that is needed to store a run.
+  /// All that is needed to store a run that has ended.
   struct EndedRun {
     sessions::Session session;  ///< from which it was run
     std::string case_id;
     ViewState::SnapshotPtr snapshot;
     std::string continued;                      ///< digest of the run that it continues, or empty
     std::vector<ViewState::SnapshotPtr> views;  ///< of several that were solved as one
+    int batch = 0;  ///< the batch that waits for it to be stored; 0: none
     bool of_batch = false;
+    bool storing = true;
+    QString problem = {};  ///< why it could not be stored
   };
+  using EndedPtr = std::shared_ptr<EndedRun>;
 
   void documentOpened();
   void documentChanged();
+  void leaveCase();
+  void openFirst();
+  void showChange(const sessions::SessionCase& session_case);
+  std::string openId() const { return state_.opening().id; }
   const sessions::SessionCase* sessionCase() const;
   bool isLoaded() const;
   void dropRun();
-  /// Edits the shown case; `text` names the undo step, %1 being the case. False when nothing was
-  /// edited.
-  bool editCase(const std::function<void(sessions::SessionCase&)>& change, const QString& text);
-  void load(const QString& id);
-  void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> loaded_case);
-  void loadFailed(const QString& id, const QString& message);
+  /// Edits the case that the operator saw; `text` names the undo step, %1 being the case. False
+  /// when nothing was edited.
+  bool editCase(const std::string& id, const std::function<void(sessions::SessionCase&)>& change,
+                const QString& text);
+  void load();
+  void loaded(const ViewState::CasePtr& loaded_case);
+  void loadFailed(const QString& message);
   void judgeInputs();
-  void loadLatestRun(const QString& id);
+  void loadLatestRun();
   void prepareRun(RunInputs inputs);
   void start(const std::function<void()>& prepare,
              sessions::StepUntil until = sessions::StepUntil::kEnd);
@@ -141,10 +161,16 @@ class CaseController : public QObject {
   void storeRun();
   static std::vector<sessions::RunRecord> recordsOf(const EndedRun& ended,
                                                     const std::filesystem::path& file);
-  void store(const EndedRun& ended);
+  void keep(EndedRun ended);
+  void store(const EndedPtr& ended);
+  void stored(const EndedPtr& ended, const std::vector<sessions::RunRecord>& records);
+  void notStored(const EndedPtr& ended, const QString& problem);
+  void storeAgain();
+  bool isStoring() const;
   bool noteRuns(const std::vector<sessions::RunRecord>& records);
   void runNext();
   void endBatch();
+  void goOnAfter(const EndedPtr& ended);
   void showRunOf(const std::string& case_id);
   void runIfWaiting();
   void showNudgedPose();
@@ -153,20 +179,27 @@ class CaseController : public QObject {
   ViewState& state_;
   RunController& run_;
   TaskRunner& tasks_;
-  QString case_id_;
+  DocumentTasks& of_document_;
+  TaskKind reading_;
+  TaskKind judging_;
+  TaskKind reading_run_;
+  TaskKind showing_run_;
+  /// Of each input: another file of one drops a change of it that is under way.
+  std::map<std::pair<std::string, sessions::InputKind>, TaskKind> changing_;
   QString load_problem_;
   std::optional<sessions::InputConcern> input_concern_;
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< the case read last, or being read
-  bool reads_run_ = false;
+  bool reads_ = false;                          ///< `asked_` is being read
+  bool reads_run_ = false;                      ///< the last run of the open case is being read
   bool run_is_prepared_ = false;
-  bool is_new_run_ = false;  ///< from the seed, and nothing of it is shown yet
-  int storing_ = 0;
-  std::vector<EndedRun> unstored_;
-  std::filesystem::path unstored_file_;  ///< where there was no room
+  bool is_new_run_ = false;              ///< from the seed, and nothing of it is shown yet
+  std::vector<EndedPtr> unstored_;       ///< being stored, or with a problem
+  std::filesystem::path unstored_file_;  ///< where one could not be stored
   sessions::Session run_session_;        ///< of the prepared run
-  std::optional<sessions::StepUntil> run_when_loaded_;
+  std::optional<sessions::StepUntil> run_when_loaded_;  ///< of the open case
   Batch batch_;
+  int batches_ = 0;                  ///< number of the newest batch
   sessions::Session batch_session_;  ///< of the case under way
   QStringList batch_failures_;       ///< reported together at its end
 };

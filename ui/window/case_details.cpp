@@ -107,12 +107,13 @@ void CaseDetails::setSession(const sessions::Session& session) {
 template <class Value, class Read>
 bool CaseDetails::read(std::map<std::string, Value>& known, const std::string& key, Read make) {
   if (known.contains(key)) return false;
-  tasks_.start(
-      QStringLiteral("case details"), [make](const std::stop_token&) { return make(); },
-      [this, &known, key](Value value) {
-        known[key] = std::move(value);
-        tellSoon();
-      });
+  const auto take = [this, &known, key](Value value) {
+    known[key] = std::move(value);
+    tellSoon();
+  };
+  // What cannot be read is not shown: opening the case reports the reason.
+  tasks_.queue([make](const std::stop_token&) { return make(); }, take,
+               [take](const QString&) { take({}); });
   return true;
 }
 

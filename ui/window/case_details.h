@@ -14,6 +14,7 @@
 #include "core/geometry/pose.h"
 #include "sessions/session/session.h"
 #include "ui/panels/case/cases_panel.h"
+#include "ui/run/task_runner.h"
 
 namespace boresight::ui {
 
@@ -21,8 +22,6 @@ namespace boresight::ui {
 /// empty; `file` is the session's, for messages; `known` is kept from one call to the next.
 std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running,
                               const std::filesystem::path& file, sessions::StaleRuns& known);
-
-class TaskRunner;
 
 /// Data of the list of cases that the session does not hold: thumbnails of the images, and errors
 /// of the latest runs against the truth. Files are read on a worker thread, each once and one at a

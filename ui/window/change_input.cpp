@@ -27,6 +27,15 @@ constexpr InputText kInputTexts[] = {
 };
 static_assert(std::size(kInputTexts) == sessions::kInputKinds);
 
+/// Unless another case, or session, was opened below the dialog.
+void changeIfOpen(WindowParts& parts, const CaseOpening& seen, const QString& case_id,
+                  InputKind kind, const std::filesystem::path& file, const std::string& unit) {
+  if (seen == parts.state.opening())
+    parts.cases.changeInput(case_id, kind, file, unit);
+  else
+    Q_EMIT parts.cases.failed(leftText(seen));
+}
+
 /// Empty when the operator has cancelled.
 std::string askUnit(QWidget& window, const QString& mesh, const std::string& former) {
   QStringList units;
@@ -52,6 +61,7 @@ QString inputFilter(InputKind kind) {
 void askForInput(WindowParts& parts, QWidget& window, const QString& case_id, InputKind kind) {
   const sessions::SessionCase* found = parts.document.session().findCase(case_id.toStdString());
   if (!found) return;
+  const CaseOpening seen = parts.state.opening();
   const std::filesystem::path former =
       kind == InputKind::kMesh ? found->parts.front().source.mesh : found->image.source.file;
   const std::string former_unit = found->parts.front().source.mesh_unit;
@@ -64,16 +74,17 @@ void askForInput(WindowParts& parts, QWidget& window, const QString& case_id, In
     unit = askUnit(window, QFileInfo(file).fileName(), former_unit);
     if (unit.empty()) return;
   }
-  parts.cases.changeInput(case_id, kind, file.toStdString(), unit);
+  changeIfOpen(parts, seen, case_id, kind, file.toStdString(), unit);
 }
 
 void askForMeshUnit(WindowParts& parts, QWidget& window, const QString& case_id) {
   const sessions::SessionCase* found = parts.document.session().findCase(case_id.toStdString());
   if (!found) return;
+  const CaseOpening seen = parts.state.opening();
   const sessions::PartSource source = found->parts.front().source;
   const std::string unit =
       askUnit(window, fromText(source.mesh.filename().string()), source.mesh_unit);
-  if (!unit.empty()) parts.cases.changeInput(case_id, InputKind::kMesh, source.mesh, unit);
+  if (!unit.empty()) changeIfOpen(parts, seen, case_id, InputKind::kMesh, source.mesh, unit);
 }
 
 void addChangeInput(QMenu& menu, WindowParts& parts, QWidget& window, const QString& case_id) {

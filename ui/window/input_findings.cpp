@@ -2,8 +2,7 @@
 #include "ui/window/input_findings.h"
 
 #include <algorithm>
-#include <set>
-#include <string>
+#include <utility>
 
 #include <QMessageBox>
 
@@ -15,34 +14,104 @@ namespace boresight::ui {
 
 using sessions::FindingKind;
 
+namespace {
+
+/// Whether a check of their files has the same outcome.
+bool sameFiles(const sessions::SessionCase* a, const sessions::SessionCase* b) {
+  if (!a || !b) return a == b;
+  const auto same_mesh = [](const sessions::MeshInput& x, const sessions::MeshInput& y) {
+    return x.source.mesh == y.source.mesh && x.sha256 == y.sha256;
+  };
+  return a->image.source == b->image.source && a->ignore == b->ignore &&
+         a->onboard_record == b->onboard_record &&
+         std::ranges::equal(a->parts, b->parts, same_mesh);
+}
+
+/// The session with these cases and their runs alone.
+sessions::Session partOf(sessions::Session session, const std::set<std::string>& ids) {
+  session.cases.eraseIf([&ids](const auto& each) { return !ids.contains(each->id); });
+  session.runs.eraseIf([&ids](const auto& run) { return !ids.contains(run.case_id); });
+  return session;
+}
+
+}  // namespace
+
 InputFindings::InputFindings(WindowParts& parts, Banner& bar, QWidget& window)
     : QObject(&window), parts_(parts), bar_(bar), window_(window) {
-  connect(&parts_.document, &Document::opened, this, &InputFindings::check);
+  connect(&parts_.document, &Document::opened, this, &InputFindings::documentOpened);
+  connect(&parts_.document, &Document::changed, this, &InputFindings::documentChanged);
   connect(&bar_, &Banner::actionRequested, this, &InputFindings::repair);
-  connect(&tasks_, &TaskRunner::failed, this, &InputFindings::failed);
+}
+
+void InputFindings::documentOpened() {
+  tasks_.cancel(checking_);
+  tasks_.cancel(repairing_);
+  asked_.clear();
+  repairs_ = false;
+  followed_ = parts_.document.session();
+  findings_.clear();
+  show();
+  check(allIds());
+}
+
+/// A file that was found to be missing may have been replaced.
+void InputFindings::documentChanged() {
+  const sessions::Session& now = parts_.document.session();
+  std::set<std::string> ids;
+  for (const auto& each : now.cases) {
+    const sessions::SessionCase* former = followed_.findCase(each->id);
+    if (former != &*each && !sameFiles(former, &*each))
+      ids.insert(each->id);  // shared if unchanged
+  }
+  followed_ = now;
+  const auto of_removed = [&now](const sessions::Finding& finding) {
+    return now.findCase(finding.case_id) == nullptr;
+  };
+  if (std::erase_if(findings_, of_removed) > 0) show();
+  if (!ids.empty()) check(ids);
+}
+
+std::set<std::string> InputFindings::allIds() const {
+  std::set<std::string> ids;
+  for (const auto& each : parts_.document.session().cases) ids.insert(each->id);
+  return ids;
 }
 
 /// After the files of the case that is shown are read: the same thread does one after the other.
-void InputFindings::check() {
-  findings_.clear();
-  show();
-  tasks_.cancel(QStringLiteral("check"));
-  tasks_.cancel(QStringLiteral("mend"));
+void InputFindings::check(const std::set<std::string>& ids) {
+  asked_.insert(ids.begin(), ids.end());
+  tasks_.cancel(checking_);
   waits_ = true;
-  parts_.tasks.start(
-      QStringLiteral("first case read"), [](const std::stop_token&) { return true; },
-      [this](bool) {
-        waits_ = false;
-        tasks_.start(
-            QStringLiteral("check"),
-            [session = parts_.document.session()](const std::stop_token&) {
-              return sessions::checkInputs(session);
-            },
-            [this](std::vector<sessions::Finding> findings) {
-              findings_ = std::move(findings);
-              show();
-            });
+  parts_.tasks.replace(
+      waiting_, [](const std::stop_token&) { return true; }, [this](bool) { checkWhenRead(); },
+      reportTo(this, &InputFindings::failed));
+}
+
+void InputFindings::checkWhenRead() {
+  waits_ = false;
+  tasks_.replace(
+      checking_,
+      [part = partOf(parts_.document.session(), asked_)](const std::stop_token&) {
+        return sessions::checkInputs(part);
+      },
+      [this, ids = asked_](const std::vector<sessions::Finding>& findings) { take(ids, findings); },
+      [this](const QString& message) {
+        asked_.clear();
+        repairs_ = false;
+        Q_EMIT failed(message);
       });
+}
+
+void InputFindings::take(const std::set<std::string>& ids,
+                         const std::vector<sessions::Finding>& findings) {
+  const bool advised = !adviceFor(parts_.cases.caseId()).isEmpty();
+  asked_.clear();
+  std::erase_if(findings_,
+                [&ids](const sessions::Finding& finding) { return ids.contains(finding.case_id); });
+  findings_.insert(findings_.end(), findings.begin(), findings.end());
+  show();
+  if (advised && adviceFor(parts_.cases.caseId()).isEmpty()) parts_.cases.readAgain();
+  if (std::exchange(repairs_, false)) repairFound();
 }
 
 void InputFindings::show() {
@@ -73,57 +142,63 @@ bool InputFindings::has(FindingKind kind) const {
   });
 }
 
+/// The operator may have restored files since.
 void InputFindings::repair() {
-  if (has(FindingKind::kMissing)) {
-    findMoved();
-  } else if (has(FindingKind::kChanged)) {
-    const auto answer = QMessageBox::question(
-        &window_, tr("Boresight"),
-        tr("Accept the changed files? Runs of the former files become stale."));
-    if (answer == QMessageBox::Yes) acceptChanged();
-  } else {
-    check();  // the operator may have put things right
-  }
+  repairs_ = true;
+  check(allIds());
+}
+
+void InputFindings::repairFound() {
+  if (has(FindingKind::kMissing)) return findMoved();
+  if (!has(FindingKind::kChanged)) return;
+  const CaseOpening seen = parts_.state.opening();
+  const auto answer =
+      QMessageBox::question(&window_, tr("Boresight"),
+                            tr("Accept the changed files? Runs of the former files become stale."));
+  if (answer == QMessageBox::Yes && seen == parts_.state.opening()) acceptChanged();
 }
 
 void InputFindings::findMoved() {
-  const sessions::Session session = parts_.document.session();
-  tasks_.start(
-      QStringLiteral("mend"),
-      [session, file = parts_.document.file()](const std::stop_token&) {
+  tasks_.replace(
+      repairing_,
+      [session = parts_.document.session(), file = parts_.document.file()](const std::stop_token&) {
         return sessions::findMissing(session, file);
       },
       [this](const std::vector<sessions::Relink>& relinks) {
-        const Document& document = parts_.document;
-        if (relinks.empty()) {
+        Document& document = parts_.document;
+        if (relinks.empty())
           Q_EMIT failed(tr("None of the missing files is in %1 or below. Copy them there, or "
                            "restore them, and try again.")
                             .arg(fromText(document.file().parent_path().string())));
-        } else if (parts_.document.edit(sessions::relinked(document.session(), relinks),
-                                        tr("Find moved files"))) {
-          check();
-        }
-      });
+        else if (document.edit(sessions::relinked(document.session(), relinks),
+                               tr("Find moved files")))
+          check(allIds());  // of runs, too
+      },
+      reportTo(this, &InputFindings::failed));
 }
 
 void InputFindings::acceptChanged() {
+  using Accepted = std::vector<std::pair<sessions::SessionCase, sessions::SessionCase>>;
   std::set<std::string> ids;
   for (const sessions::Finding& finding : findings_)
     if (finding.kind == FindingKind::kChanged) ids.insert(finding.case_id);
-  tasks_.start(
-      QStringLiteral("mend"),
+  tasks_.replace(
+      repairing_,
       [session = parts_.document.session(), ids](const std::stop_token&) {
-        std::vector<sessions::SessionCase> accepted;
+        Accepted accepted;
         for (const std::string& id : ids)
-          accepted.push_back(*sessions::acceptingInputs(session, id).findCase(id));
+          if (const sessions::SessionCase* before = session.findCase(id))
+            accepted.emplace_back(*before, *sessions::acceptingInputs(session, id).findCase(id));
         return accepted;
       },
-      [this](const std::vector<sessions::SessionCase>& accepted) {
+      [this](const Accepted& accepted) {
         sessions::Session session = parts_.document.session();
-        for (const sessions::SessionCase& session_case : accepted)
-          session = sessions::withCase(session, session_case);
-        if (parts_.document.edit(session, tr("Accept changed files"))) check();
-      });
+        for (const auto& [before, after] : accepted)
+          session = sessions::withAccepted(session, before, after);
+        if (!(session == parts_.document.session()))
+          parts_.document.edit(session, tr("Accept changed files"));
+      },
+      reportTo(this, &InputFindings::failed));
 }
 
 }  // namespace boresight::ui

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include <QObject>
@@ -15,9 +17,10 @@ namespace boresight::ui {
 
 class Banner;
 
-/// Compares the files of a session with its hashes once its first case is read, and reports missing
-/// and changed files. On request it searches moved files below the session's folder or accepts
-/// changed ones. Hashing may take long, so it has a separate runner.
+/// Compares the files of a session with its hashes once its first case is read, and those of a case
+/// whenever they are replaced; reports missing and changed files. On request it checks them again,
+/// and searches those still missing below the session's folder or accepts changed ones. Hashing may
+/// take long, so it has a separate runner.
 class InputFindings : public QObject {
   Q_OBJECT
 
@@ -30,7 +33,7 @@ class InputFindings : public QObject {
   QString adviceFor(const QString& case_id) const;
 
  public Q_SLOTS:
-  /// Action of the bar's button: finds moved files, accepts changed ones, or checks again.
+  /// Action of the bar's button: checks again, then finds moved files or accepts changed ones.
   void repair();
 
  Q_SIGNALS:
@@ -38,8 +41,14 @@ class InputFindings : public QObject {
   void failed(const QString& message);
 
  private:
-  void check();
+  void documentOpened();
+  void documentChanged();
+  std::set<std::string> allIds() const;
+  void check(const std::set<std::string>& ids);
+  void checkWhenRead();
+  void take(const std::set<std::string>& ids, const std::vector<sessions::Finding>& findings);
   void show();
+  void repairFound();
   bool has(sessions::FindingKind kind) const;
   void findMoved();
   void acceptChanged();
@@ -48,8 +57,14 @@ class InputFindings : public QObject {
   Banner& bar_;
   QWidget& window_;
   TaskRunner tasks_;
+  TaskKind checking_;
+  TaskKind repairing_;
+  TaskKind waiting_;
+  sessions::Session followed_;   ///< the document when its changes were looked at last
+  std::set<std::string> asked_;  ///< cases whose files are to be checked, or are being checked
   std::vector<sessions::Finding> findings_;
-  bool waits_ = false;  ///< for the files of the case that is shown
+  bool repairs_ = false;  ///< what the check under way finds
+  bool waits_ = false;    ///< for the files of the case that is shown
 };
 
 }  // namespace boresight::ui

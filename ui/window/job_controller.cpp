@@ -45,8 +45,8 @@ JobController::JobController(WindowParts& parts, ReviewController& review, JobSt
   const auto refresh = [this] { update(); };
   connectEach(parts_.run, this, refresh, &RunController::stateChanged,
               &RunController::snapshotChanged);
-  connectEach(parts_.cases, this, refresh, &CaseController::batchChanged,
-              &CaseController::caseChosen);
+  connect(&parts_.cases, &CaseController::batchChanged, this, refresh);
+  parts_.state.onChange(ViewChange::kOtherCase, this, refresh);
   connectEach(parts_.document, this, refresh, &Document::opened, &Document::changed);
   connectEach(review_, this, refresh, &ReviewController::convergenceChanged,
               &ReviewController::checksChanged);

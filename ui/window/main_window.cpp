@@ -5,8 +5,12 @@
 
 #include <QtWidgets>
 
+#include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/panels/annotate/mask_panel.h"
+#include "ui/panels/run/pose_panel.h"
+#include "ui/panels/run/runs_panel.h"
 #include "ui/review/pose_export.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
@@ -93,7 +97,7 @@ void MainWindow::connectAll() {
                                          frame_->verdict(), *this);
   connect(&docks_->remedies, &RemediesPanel::stepRequested, verdicts, &VerdictController::perform);
   connect(menus_, &WindowMenus::verdictStepRequested, &frame_->verdict(),
-          [this, verdicts] { verdicts->perform(frame_->verdict().verdict().step); });
+          [this, verdicts] { verdicts->performShown(frame_->verdict().verdict().step); });
   connect(verdicts, &VerdictController::exportRequested, this, [this](Step step) {
     step == Step::kReport ? menus_->poses().askForReport() : menus_->poses().askForPose();
   });
@@ -117,8 +121,12 @@ void MainWindow::connectAll() {
           &CaseController::runPlan);
   connect(&parts_.onboard, &OnboardController::told, this, note);
   connect(&parts_.annotation, &AnnotationController::told, this, note);
-  show_failures_of(*annotation_files, parts_.onboard, docks_->snapper, *links, *findings_, *files_,
-                   parts_.document, parts_.cases, parts_.tasks, parts_.exports);
+  connect(&parts_.cases, &CaseController::noted, this, note);
+  show_failures_of(*annotation_files, parts_.onboard, parts_.quality, docks_->snapper, *links,
+                   *findings_, *files_, parts_.document, parts_.cases, parts_.of_document,
+                   parts_.exports, *verdicts, *levels, image(), docks_->image_annotation,
+                   docks_->scene, docks_->mask, docks_->poses, docks_->annotation,
+                   docks_->review.controller(), *findChild<RunsPanel*>(), menus_->poses());
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
   connect(files_, &SessionFiles::queueWanted, this,
           [this] { workspaces_->reveal(QStringLiteral("queue")); });
@@ -164,8 +172,6 @@ void MainWindow::connectDecisions(VerdictController& verdicts) {
           [&verdicts] { verdicts.askForDecision(ReviewController::Act::kValidate); });
   connect(&docks_->queue, &QueuePanel::rejectionRequested, &verdicts,
           [&verdicts] { verdicts.askForDecision(ReviewController::Act::kReject); });
-  connect(&parts_.cases, &CaseController::caseChosen, &docks_->review.controller(),
-          &ReviewController::setChosenCase);
 }
 
 /// In the middle, where the operator looks for the image: why it is not there, and what to do.
@@ -194,9 +200,25 @@ bool MainWindow::openSession(const std::filesystem::path& file) { return files_-
 
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
+/// Asks where closing would end work whose result is lost.
+bool MainWindow::mayEndJobs() {
+  QStringList jobs;
+  if (parts_.exports.isBusy())
+    jobs << tr("%n export(s): %1", "", parts_.exports.count()).arg(parts_.exports.job().name);
+  if (parts_.sequence.isRunning()) jobs << tr("a sequence; its next start continues it");
+  if (docks_->review.controller().isConvergenceTestRunning()) jobs << tr("a convergence test");
+  if (jobs.isEmpty()) return true;
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("Close now, and end what is under way?"), QMessageBox::Cancel, this);
+  box.setInformativeText(jobs.join(QLatin1Char('\n')));
+  QAbstractButton* end =
+      named(box.addButton(tr("End and close"), QMessageBox::DestructiveRole), "endJobs");
+  box.exec();
+  return box.clickedButton() == end;
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
-  Q_EMIT parts_.document.aboutToChange();
-  parts_.cases.finishStoring();
+  if (!mayEndJobs()) return event->ignore();
   const std::optional<Former> former = files_->mayLeave();
   if (!former) return event->ignore();
   if (remembers_layout_) {  // before the session is closed: that changes the workspace
@@ -244,7 +266,9 @@ void MainWindow::dropEvent(QDropEvent* event) {
   for (const QUrl& url : event->mimeData()->urls())
     if (url.isLocalFile()) files.emplace_back(url.toLocalFile().toStdString());
   event->acceptProposedAction();
-  if (!files.empty()) takeFiles(files);
+  if (files.empty()) return;
+  // The program that the files come from waits for the end of this event: no dialog in it.
+  QTimer::singleShot(0, this, [this, files] { takeFiles(files); });
 }
 
 void MainWindow::showDocument() {

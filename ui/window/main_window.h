@@ -75,6 +75,7 @@ class MainWindow : public QMainWindow {
   void showState();
   void showHint();
   void showMessage(const QString& message);
+  bool mayEndJobs();
 
   WindowParts parts_;
   QMainWindow* body_ = nullptr;  ///< holds the docks

@@ -42,8 +42,8 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
     if (const sessions::SessionCase* found = session.findCase(each))
       wanted.push_back({each, found->image});
   Q_EMIT noted(tr("Converting %n image(s)...", "", static_cast<int>(wanted.size())));
-  parts_.tasks.start(
-      QStringLiteral("conversion"),
+  parts_.of_document.ofDocument(
+      tr("The conversion of %1").arg(fromText(id)),
       [wanted, eight_bit](const std::stop_token& stop) {
         std::vector<Conversion> conversions;
         for (const Conversion& conversion : wanted)
@@ -57,6 +57,10 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
             parts_.document.edit(withConversions(parts_.document.session(), conversions),
                                  tr("Change the 8-bit conversion of %1").arg(fromText(id)));
         Q_EMIT noted(done ? tr("Converted; earlier runs are stale") : QString());
+      },
+      [this](const QString& message) {
+        Q_EMIT noted({});
+        Q_EMIT failed(message);
       });
 }
 
@@ -89,6 +93,7 @@ MaskController::MaskController(WindowParts& parts, MaskEditor& editor, MaskPanel
 
 void MaskController::addStroke(const MaskStroke& stroke) {
   const std::string id = shownId();
+  if (id.empty()) return;
   const QString text =
       stroke.erase ? tr("Use pixels of %1 again (%2)") : tr("Ignore pixels of %1 (%2)");
   parts_.document.edit(withStroke(parts_.document.session(), id, stroke),
@@ -96,13 +101,14 @@ void MaskController::addStroke(const MaskStroke& stroke) {
   showDocument();
 }
 
-void MaskController::setStrokes(const MaskStrokes& strokes, const QString& text) {
-  parts_.document.edit(withStrokes(parts_.document.session(), shownId(), strokes),
-                       tr("%1 of %2").arg(text, fromText(shownId())));
+void MaskController::setStrokes(const std::string& case_id, const MaskStrokes& strokes,
+                                const QString& text) {
+  parts_.document.edit(withStrokes(parts_.document.session(), case_id, strokes),
+                       tr("%1 of %2").arg(text, fromText(case_id)));
 }
 
 void MaskController::copyStroke(int stroke) {
-  if (stroke < 0) return;
+  if (stroke < 0 || shownId().empty()) return;
   parts_.document.edit(
       copyingStroke(parts_.document.session(), shownId(), static_cast<std::size_t>(stroke)),
       tr("Copy a stroke of the ignore mask of %1 to its camera's cases").arg(fromText(shownId())));

@@ -22,6 +22,8 @@ class LevelsController : public QObject {
 
  Q_SIGNALS:
   void noted(const QString& message);
+  /// The images cannot be converted; one sentence.
+  void failed(const QString& message);
 
  private:
   void convert(const sessions::ImageReadOptions& eight_bit, bool whole_camera);
@@ -47,7 +49,8 @@ class MaskController : public QObject {
  private:
   std::string shownId() const { return shownCaseId(parts_.document, parts_.state); }
   void addStroke(const sessions::MaskStroke& stroke);
-  void setStrokes(const sessions::MaskStrokes& strokes, const QString& text);
+  void setStrokes(const std::string& case_id, const sessions::MaskStrokes& strokes,
+                  const QString& text);
   void copyStroke(int stroke);
   void showDocument();
   void showPending(const sessions::SessionCase& edited);

@@ -37,24 +37,19 @@ QueueLinks::QueueLinks(WindowParts& parts, const WindowDocks& docks, QObject* pa
     : QObject(parent), parts_(parts) {
   connect(&docks.queue, &QueuePanel::openRequested, this,
           [this](const QString& id, const QString& digest, int iteration) {
-            wanted_ = Place{id, digest.toStdString(), iteration};
             parts_.cases.chooseCase(id);
+            wanted_ = Place{parts_.state.opening(), digest.toStdString(), iteration};
             goThere();
           });
   connect(&docks.dockOf(docks.queue), &QDockWidget::visibilityChanged, &docks.queue,
           &QueuePanel::setInSight);
   parts_.state.onChange(ViewChange::kSnapshot, this, &QueueLinks::goThere);
-  connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
-    if (wanted_ && wanted_->case_id != id) wanted_.reset();  // another case was chosen meanwhile
-  });
 }
 
 /// As soon as the case is shown with its run. Another run of it that is shown stays as it is.
 void QueueLinks::goThere() {
-  const ViewState::CasePtr& loaded_case = parts_.state.currentCase();
   const ViewState::SnapshotPtr& run = parts_.state.snapshot();
-  if (!wanted_ || !loaded_case || !run || fromText(loaded_case->source.id) != wanted_->case_id)
-    return;
+  if (!wanted_ || !run || wanted_->opening != parts_.state.opening()) return;
   const Place place = *wanted_;
   wanted_.reset();
   const int count = static_cast<int>(run->iterations.size());
@@ -85,7 +80,8 @@ void PanelLinks::linkCases() {
   connect(&panel, &CasesPanel::runRequested, this,
           [this](const QString& id) { parts_.cases.runAll({id}); });
   connect(&panel, &CasesPanel::runAllRequested, &cases, &CaseController::runAll);
-  connect(&cases, &CaseController::caseChosen, this, [this](const QString& id) {
+  parts_.state.onChange(ViewChange::kOtherCase, this, [this] {
+    const QString id = parts_.cases.caseId();
     showCases();
     docks_.cases.setCurrent(id);
     docks_.queue.setCurrent(id);
@@ -154,8 +150,8 @@ void PanelLinks::showInputs() {
   Q_EMIT warningsChanged({});
   showConfiguration();
   if (!loaded_case) return;
-  parts_.tasks.start(
-      QStringLiteral("input sheet"),
+  parts_.tasks.replace(
+      describing_,
       [loaded_case](const std::stop_token&) { return sessions::inputSheet(*loaded_case); },
       [this, loaded_case](sessions::InputSheet sheet) {
         if (loaded_case != parts_.state.currentCase()) return;
@@ -163,15 +159,24 @@ void PanelLinks::showInputs() {
         for (const sessions::RedFlag& flag : sheet.flags) flags << fromText(flag.text);
         Q_EMIT warningsChanged(flags);
         docks_.inputs.setSheet(std::move(sheet));
-      });
+      },
+      reportTo(this, &PanelLinks::failed));
+}
+
+/// Whether the case that a dialog was opened for is still open; tells where it is not.
+bool PanelLinks::isStillOpen(const CaseOpening& seen) {
+  if (seen == parts_.state.opening()) return true;
+  Q_EMIT failed(leftText(seen));
+  return false;
 }
 
 void PanelLinks::askForSigmas() {
   const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
   if (!session_case) return;
   const std::string id = session_case->id;
+  const CaseOpening seen = parts_.state.opening();
   InputSigmasDialog dialog(*session_case, docks_.inputs.window());
-  if (dialog.exec() != QDialog::Accepted) return;
+  if (dialog.exec() != QDialog::Accepted || !isStillOpen(seen)) return;
   parts_.document.edit(
       sessions::withInputSigmas(parts_.document.session(), id, dialog.meshScaleSigma(),
                                 dialog.calibrationSigma()),
@@ -182,8 +187,9 @@ void PanelLinks::askForJudgement() {
   const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
   if (!session_case) return;
   const std::string id = session_case->id;
+  const CaseOpening seen = parts_.state.opening();
   JudgementDialog dialog(*session_case, docks_.inputs.window());
-  if (dialog.exec() != QDialog::Accepted) return;
+  if (dialog.exec() != QDialog::Accepted || !isStillOpen(seen)) return;
   const auto state = [&dialog](sessions::SessionCase& changed) {
     changed.camera_from_end_effector = dialog.cameraFromEndEffector();
     changed.requirement = dialog.requirement();
@@ -209,17 +215,18 @@ void PanelLinks::linkFrames() {
 }
 
 void PanelLinks::addFrames() {
-  const sessions::SessionCase* shown = shownCase(parts_.document, parts_.state);
-  if (!shown) return;
+  const std::string id = shownCaseId(parts_.document, parts_.state);
+  if (id.empty()) return;
+  const CaseOpening seen = parts_.state.opening();
   const QString file =
       QFileDialog::getOpenFileName(docks_.frames.window(), tr("Add transforms between frames"), {},
                                    tr("Transforms (*.json);;All files (*)"));
-  if (file.isEmpty()) return;
+  if (file.isEmpty() || !isStillOpen(seen)) return;
   try {
     sessions::StatedInputs stated;
     stated.frames = sessions::readFrameTransforms(std::filesystem::path(file.toStdString()));
-    parts_.document.edit(sessions::withStated(parts_.document.session(), shown->id, stated),
-                         tr("Add frames to %1").arg(fromText(shown->id)));
+    parts_.document.edit(sessions::withStated(parts_.document.session(), id, stated),
+                         tr("Add frames to %1").arg(fromText(id)));
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
   }

@@ -8,6 +8,7 @@
 #include <QStringList>
 
 #include "sessions/session/session.h"
+#include "ui/state/view_state.h"
 #include "ui/window/window_parts.h"
 
 namespace boresight::ui {
@@ -23,7 +24,7 @@ class QueueLinks : public QObject {
 
  private:
   struct Place {
-    QString case_id;
+    CaseOpening opening;
     std::string run_digest;
     int iteration = -1;
   };
@@ -59,6 +60,7 @@ class PanelLinks : public QObject {
   void showCases();
   void showConfiguration();
   void showInputs();
+  bool isStillOpen(const CaseOpening& seen);
   void askForSigmas();
   void askForJudgement();
   void linkFrames();
@@ -71,6 +73,7 @@ class PanelLinks : public QObject {
   CaseDetails* details_;
   PoseRenderer* nudged_;
   sessions::StaleRuns stale_runs_;
+  TaskKind describing_;  ///< the inputs
 };
 
 }  // namespace boresight::ui

@@ -21,7 +21,6 @@ namespace {
 
 constexpr QSize kDialogSize(1080, 640);
 constexpr int kTableWidth_px = 640;  ///< holds all columns
-QString pictureTask() { return QStringLiteral("frame"); }
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 /// What a chosen frame shows.
@@ -116,7 +115,6 @@ SequenceDialog::SequenceDialog(WindowParts& parts, QWidget* parent)
           [this](const QString& text) { setImages(pathOf(text)); });
   connect(ui_.sequenceResults, &QLineEdit::textEdited, this,
           [this](const QString& text) { setResults(pathOf(text)); });
-  connect(&pictures_, &TaskRunner::failed, ui_.sequencePicture, &ImageView::setHint);
   parts_.state.onChange(ViewChange::kCase, this, &SequenceDialog::update);
   update();
   showProgress();
@@ -136,7 +134,7 @@ void SequenceDialog::setUpFrames() {
 }
 
 void SequenceDialog::clearPicture() {
-  pictures_.cancel(pictureTask());
+  pictures_.cancel(showing_);
   ui_.sequencePicture->setImage({});
   ui_.sequencePicture->setHint(
       tr("Choose a frame: its image and the outline of its pose are shown here."));
@@ -145,6 +143,7 @@ void SequenceDialog::clearPicture() {
 void SequenceDialog::setImages(const std::filesystem::path& images) {
   if (pathOf(ui_.sequenceImages->text()) != images)
     ui_.sequenceImages->setText(fromText(images.string()));
+  if (chosen_results_ && chosen_results_->empty()) chosen_results_.reset();
   problem_.clear();
   update();
   showProgress();
@@ -262,8 +261,8 @@ void SequenceDialog::showFrame() {
   const int row = ui_.sequenceFrames->currentIndex().row();
   const auto& loaded = parts_.sequence.loadedCase();
   if (row < 0 || row >= model_->rowCount() || !loaded) return;
-  pictures_.start(
-      pictureTask(),
+  pictures_.replace(
+      showing_,
       [order = parts_.sequence.order(), loaded, frame = model_->at(row)](const std::stop_token&) {
         return pictureOf(order, *loaded, frame);
       },
@@ -271,7 +270,8 @@ void SequenceDialog::showFrame() {
         ui_.sequencePicture->setHint(picture.problem);
         ui_.sequencePicture->setImage(picture.image);
         ui_.sequencePicture->setPart(LayerId::kIterationEdges, &Layer::lines, picture.lines);
-      });
+      },
+      [this](const QString& message) { ui_.sequencePicture->setHint(message); });
 }
 
 }  // namespace boresight::ui

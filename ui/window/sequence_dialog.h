@@ -51,6 +51,7 @@ class SequenceDialog : public QDialog {
   std::optional<std::filesystem::path> chosen_results_;  ///< otherwise next to the images
   QString problem_;                                      ///< why it did not start or continue
   TaskRunner pictures_;
+  TaskKind showing_;
 };
 
 }  // namespace boresight::ui

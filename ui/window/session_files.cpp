@@ -140,8 +140,8 @@ void SessionFiles::judgeCollected() {
   judged_ = {};
   picture_ = {};
   Q_EMIT collectedChanged();
-  parts_.tasks.start(
-      QStringLiteral("judge files"),
+  parts_.tasks.replace(
+      judging_,
       [files = collected_.one](const std::stop_token&) {
         Judged judged{sessions::judgeFiles(files), {}};
         if (const auto image = std::move(judged.files.front().image))
@@ -153,7 +153,8 @@ void SessionFiles::judgeCollected() {
         judged_ = judged.files;
         picture_ = judged.picture;
         Q_EMIT collectedChanged();
-      });
+      },
+      reportTo(this, &SessionFiles::failed));
 }
 
 std::optional<InputKind> SessionFiles::nextKind() const {
@@ -231,8 +232,8 @@ void SessionFiles::measureMesh() {
     if (sessions::statesUnit(part.mesh)) return;
     part.mesh_unit = "m";
   }
-  parts_.tasks.start(
-      QStringLiteral("mesh size"),
+  parts_.tasks.replace(
+      measuring_,
       [parts](const std::stop_token&) {
         const sessions::SceneMesh scene = sessions::readScene(parts);
         double extent = 0.0;
@@ -250,9 +251,9 @@ void SessionFiles::measureMesh() {
 
 /// After the mesh was measured: the same thread does one after the other.
 void SessionFiles::makeCollected() {
-  parts_.tasks.start(
-      QStringLiteral("mesh measured"), [](const std::stop_token&) { return true; },
-      [this](bool) { addCase(kept_); });
+  parts_.of_document.ofDocument(
+      tr("The new case"), [](const std::stop_token&) { return true; },
+      [this](bool) { addCase(kept_); }, reportTo(this, &SessionFiles::failed));
 }
 
 void SessionFiles::openExample(const std::filesystem::path& file) {
@@ -286,17 +287,19 @@ void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
   Q_EMIT noted(
       (results ? tr("Reading %1 and its dataset's files ...") : tr("Reading %1 and its files ..."))
           .arg(text(file.filename())));
-  parts_.tasks.start(
-      QStringLiteral("make session"),
+  parts_.tasks.replace(
+      making_,
       [file, results](const std::stop_token&) {
         return results ? sessions::sessionOfResults(file) : sessions::makeSession(file);
       },
       [this, results](const sessions::Session& session) {
         Q_EMIT noted({});
+        // Asked now: during the reading the open session was worked on.
         const std::optional<Former> former = mayLeave();
         if (former && parts_.document.createUntitled(session, *former) && results)
           Q_EMIT queueWanted();
-      });
+      },
+      reportTo(this, &SessionFiles::failed));
 }
 
 /// `kept`: names of files of earlier drops that the case is made of, too.
@@ -311,8 +314,8 @@ void SessionFiles::addCase(const QString& kept) {
   }
   if (!askForUnits()) return;
   Q_EMIT noted(tr("Reading the files ..."));
-  parts_.tasks.start(
-      QStringLiteral("make session"),
+  parts_.of_document.ofDocument(
+      tr("The new case"),
       [files = collected_](const std::stop_token&) {
         sessions::SessionCase session_case = sessions::makeCase(files.one).made;
         if (files.record)
@@ -327,7 +330,8 @@ void SessionFiles::addCase(const QString& kept) {
         }
         forgetCollected();
         Q_EMIT noted(kept.isEmpty() ? QString() : tr("Also of earlier drops: %1").arg(kept));
-      });
+      },
+      reportTo(this, &SessionFiles::failed));
 }
 
 /// Part of the open session, or a new one where none can be edited. False when it is in no session:
@@ -429,9 +433,10 @@ bool SessionFiles::mayLoseRuns() {
   const QStringList runs = parts_.cases.unstoredRuns();
   if (runs.isEmpty()) return true;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"),
-                  tr("No space for runs of %1; they exist only in this window.")
+                  tr("Runs of %1 are not stored; they exist only in this window.")
                       .arg(runs.join(QStringLiteral(", "))),
                   QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  box.setInformativeText(parts_.cases.unstoredReason());
   noteInLog(box);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   const int answer = box.exec();
@@ -441,6 +446,7 @@ bool SessionFiles::mayLoseRuns() {
 
 std::optional<Former> SessionFiles::mayLeave() {
   Q_EMIT parts_.document.aboutToChange();  // or a gesture under way would be lost
+  parts_.cases.finishStoring();            // in the session that they were run from
   if (!mayLoseRuns()) return std::nullopt;
   const Document& document = parts_.document;
   const std::filesystem::path asked = document.file();

@@ -124,6 +124,9 @@ class SessionFiles : public QObject {
   QString kept_;  ///< names of the files from an earlier drop
   std::optional<double> mesh_extent_;
   bool recovers_ = false;  ///< without a question
+  TaskKind judging_;
+  TaskKind measuring_;
+  TaskKind making_;
 };
 
 }  // namespace boresight::ui

@@ -59,7 +59,7 @@ VerdictController::VerdictController(WindowParts& parts, const WindowDocks& dock
   soon_.setSingleShot(true);
   soon_.setInterval(0);
   connect(&soon_, &QTimer::timeout, this, &VerdictController::update);
-  connect(&bar_, &VerdictBar::stepRequested, this, &VerdictController::perform);
+  connect(&bar_, &VerdictBar::stepRequested, this, &VerdictController::performShown);
   follow();
   update();
 }
@@ -70,8 +70,7 @@ void VerdictController::follow() {
   connect(&parts_.document, &Document::opened, this, [this] { taken_.clear(); });
   connectEach(parts_.document, this, soon, &Document::opened, &Document::changed);
   connectEach(parts_.cases, this, soon, &CaseController::batchChanged,
-              &CaseController::stalenessChanged, &CaseController::caseChosen,
-              &CaseController::failed);
+              &CaseController::stalenessChanged, &CaseController::failed);
   connectEach(parts_.annotation, this, soon, &AnnotationController::solutionChanged,
               &AnnotationController::annotationsChanged);
   ReviewController& review = docks_.review.controller();
@@ -185,9 +184,14 @@ Situation VerdictController::situation() const {
 }
 
 void VerdictController::update() {
+  told_ = parts_.state.opening();
   const Situation now = situation();
   docks_.remedies.setTried(now.tried);
   bar_.setVerdict(verdictOf(now));
+}
+
+void VerdictController::performShown(Step step) {
+  if (told_ == parts_.state.opening()) perform(step);
 }
 
 void VerdictController::perform(Step step) {
@@ -303,8 +307,13 @@ void VerdictController::disablePair() {
 void VerdictController::askForUncertainty() {
   const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
   if (!session_case) return;
+  const CaseOpening seen = parts_.state.opening();
   UncertaintyDialog dialog(session_case->uncertainty, &window_);
-  if (dialog.exec() == QDialog::Accepted) parts_.cases.runWithUncertainty(dialog.uncertainty());
+  if (dialog.exec() != QDialog::Accepted) return;
+  if (seen == parts_.state.opening())
+    parts_.cases.runWithUncertainty(dialog.uncertainty());
+  else
+    Q_EMIT failed(leftText(seen));
 }
 
 QString VerdictController::nextCase() const {

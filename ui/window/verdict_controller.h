@@ -36,11 +36,16 @@ class VerdictController : public QObject {
 
  public Q_SLOTS:
   void perform(boresight::ui::Step step);
+  /// The same for a step that the bar offers; without effect once another case is open than the bar
+  /// told of.
+  void performShown(boresight::ui::Step step);
   /// Asks in the review of the shown case, which is brought to the front.
   void askForDecision(boresight::ui::ReviewController::Act act);
 
  Q_SIGNALS:
   void exportRequested(boresight::ui::Step step);
+  /// A step was not performed; one sentence.
+  void failed(const QString& message);
 
  private:
   void follow();
@@ -60,6 +65,7 @@ class VerdictController : public QObject {
   QWidget& window_;
   QTimer soon_;
   RemedyMemory taken_;
+  CaseOpening told_;  ///< the case of the bar
 };
 
 }  // namespace boresight::ui

@@ -152,7 +152,8 @@ void WindowFrame::connectAll() {
   connect(cases_, &CaseStrip::menuRequested, this, show_menu);
   connect(&docks_.cases, &CasesPanel::menuRequested, this, show_menu);
   connect(cases_, &CaseStrip::addRequested, &files_, &SessionFiles::askForFiles);
-  connect(&parts_.cases, &CaseController::caseChosen, cases_, &CaseStrip::setCurrent);
+  parts_.state.onChange(ViewChange::kOtherCase, cases_,
+                        [this] { cases_->setCurrent(parts_.cases.caseId()); });
   connect(&workspaces_, &Workspaces::changed, this, &WindowFrame::arrange);
   connect(&parts_.onboard, &OnboardController::changed, this, &WindowFrame::arrange);
   parts_.state.onChange(ViewChange::kSnapshot | ViewChange::kCase, this, &WindowFrame::arrange);

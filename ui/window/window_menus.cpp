@@ -133,12 +133,12 @@ void WindowMenus::connectEdit() {
   on(ui_.redo, this, &WindowMenus::redo);
   ui_.redo->setShortcut(QKeySequence::Redo);  // desktops differ
   ui_.editMenu->addAction(&docks_.gizmo.action());
-  const auto fill_change = [this](const QString& id) {
+  const auto fill_change = [this] {
     ui_.changeMenu->clear();
-    addChangeInput(*ui_.changeMenu, parts_, window_, id);
+    addChangeInput(*ui_.changeMenu, parts_, window_, parts_.cases.caseId());
   };
-  connect(&parts_.cases, &CaseController::caseChosen, this, fill_change);
-  fill_change(parts_.cases.caseId());
+  parts_.state.onChange(ViewChange::kOtherCase, this, fill_change);
+  fill_change();
   on(ui_.findCommand, this, [this] {
     CommandPalette palette(*ui_.menuBar, &window_);
     palette.exec();
@@ -427,8 +427,9 @@ void WindowMenus::update() {
   ui_.undo->setText(document.canUndo() ? tr("&Undo: %1").arg(document.undoText()) : tr("&Undo"));
   ui_.redo->setText(document.canRedo() ? tr("&Redo: %1").arg(document.redoText()) : tr("&Redo"));
   const QString obstacle = parts_.cases.whyNotRunnable();
+  const bool runs = !parts_.cases.caseId().isEmpty() && !working;  // as soon as it is read
   for (QAction* each : {ui_.runToEnd, ui_.stepIteration, ui_.stepStage})
-    each->setEnabled(idle && obstacle.isEmpty());
+    each->setEnabled(runs && obstacle.isEmpty());
   if (run_tip_.isEmpty()) run_tip_ = ui_.runToEnd->statusTip();
   setTip(*ui_.runToEnd, obstacle.isEmpty() ? run_tip_ : obstacle);
   ui_.closeSession->setEnabled(open);

@@ -4,6 +4,7 @@
 #include "ui/annotation/annotation_controller.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/review/quality_controller.h"
+#include "ui/run/document_tasks.h"
 #include "ui/run/export_runner.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/sequence_runner.h"
@@ -20,8 +21,9 @@ struct WindowParts {
   Document document;
   ViewState state;
   TaskRunner tasks;
+  DocumentTasks of_document{document, tasks};
   RunController run;
-  CaseController cases{document, state, run, tasks};
+  CaseController cases{document, state, run, tasks, of_document};
   AnnotationController annotation{document, state};
   OnboardController onboard{document, state, tasks};
   QualityController quality{document, state, tasks};

@@ -39,9 +39,9 @@ QString stageName(Stage stage) {
   return tr(name);
 }
 
-/// Green only where the requirement holds and no check fails.
+/// Green only where the requirement holds, the checks are measured and none fails.
 void toneOfPose(const Situation& situation, Verdict& verdict) {
-  if (!situation.quality) return;  // being measured
+  if (!situation.quality || !situation.review.current) return;  // being measured
   const bool good = situation.quality->holds() && situation.review.failed == 0;
   setTone(verdict, good ? VerdictTone::kGood : VerdictTone::kCaution);
 }
@@ -259,7 +259,7 @@ Verdict ofRun(const Situation& situation) {
   const sessions::RunHeadline headline = sessions::runHeadline(trace);
   Verdict verdict{.head = fromText(headline.head), .sentence = fromText(headline.sentence)};
   if (trace.converged()) {
-    if (situation.review.current) toneOfPose(situation, verdict);
+    toneOfPose(situation, verdict);
     if (situation.quality) verdict.sentence += qualityText(*situation.quality);
     if (situation.review.failed > 0)
       verdict.sentence += tr(" %1.").arg(failedText(situation.review.failed));

@@ -105,5 +105,29 @@ TEST(WithInputFile, TakesTheFileInPlaceOfTheFormerOne) {
       InputError);
 }
 
+/// A file takes seconds to read: what was edited meanwhile stays.
+TEST(WithInput, ChangesThatInputAlone_UnlessItHasChangedMeanwhile) {
+  const SessionCase os = makeCase(exampleFiles()).made;
+  const std::filesystem::path bc = test::exampleFolder() / "bc";
+  const SessionCase changed = withInputFile(os, InputKind::kMesh, bc / "model.ply", "m");
+  SessionCase edited = os;
+  edited.uncertainty.rotation_deg.z() = 90.0;
+  edited.ignore_strokes.resize(1);
+  const Session session = withCase({}, edited);
+  const auto after = withInput(session, InputKind::kMesh, os, changed);
+  ASSERT_TRUE(after);
+  SessionCase expected = edited;
+  expected.parts = changed.parts;
+  EXPECT_EQ(*after->findCase(os.id), expected);
+  const SessionCase in_mm = withInputFile(os, InputKind::kMesh, os.parts.front().source.mesh, "mm");
+  EXPECT_FALSE(withInput(*after, InputKind::kMesh, os, in_mm)) << "another mesh is there by now";
+  EXPECT_FALSE(withInput({}, InputKind::kMesh, os, changed)) << "and no case is added";
+  SessionCase moved = os;
+  moved.camera_from_station_working = Pose();
+  const SessionCase reseeded =
+      withInputFile(os, InputKind::kSeed, test::exampleFolder() / "os/seed.json");
+  EXPECT_EQ(*withInput(withCase({}, moved), InputKind::kSeed, os, reseeded)->findCase(os.id), os);
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -42,6 +42,26 @@ TEST(InputCheck, ReportsWhatIsMissingOrChanged) {
     EXPECT_NE(folder.message([&] { (void)loadCase(*session_case); }), "(nothing)");
 }
 
+TEST(InputCheck, Acceptance_SetsTheHashesOfTheFilesThatItReadAndNothingElse) {
+  const TemporaryFolder folder;
+  const std::filesystem::path stations = copyOfExamples(folder);
+  const Session session = makeSession(stations / "dataset.json");
+  const SessionCase before = *session.cases[0];
+  std::ofstream(stations / "bc/model.ply", std::ios::app) << "\n";
+  const SessionCase accepted = *acceptingInputs(session, before.id).findCase(before.id);
+  ASSERT_NE(accepted.parts.front().sha256, before.parts.front().sha256);
+  SessionCase edited = before;
+  edited.uncertainty.rotation_deg.z() = 90.0;
+  SessionCase expected = edited;
+  expected.parts = accepted.parts;
+  EXPECT_EQ(*withAccepted(withCase(session, edited), before, accepted).findCase(before.id),
+            expected);
+  SessionCase replaced = before;
+  replaced.parts.front().source.mesh = stations / "os/model.ply";
+  const Session other = withCase(session, replaced);
+  EXPECT_EQ(*withAccepted(other, before, accepted).findCase(before.id), replaced);
+}
+
 TEST(InputCheck, ChangedInputs_AreLoadedOnlyAfterAcceptance) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);

@@ -2,6 +2,7 @@
 #include "ui/review/review_panel.h"
 
 #include <algorithm>
+#include <new>
 #include <string>
 
 #include <QtWidgets>
@@ -16,6 +17,7 @@
 #include "ui/models/text.h"
 #include "ui/panels/case/cases_panel.h"
 #include "ui/panels/diagnose/options_table.h"
+#include "ui/review/check_cards.h"
 #include "ui/review/pose_export.h"
 #include "ui/review/precision_bars.h"
 #include "ui/run/export_runner.h"
@@ -352,6 +354,53 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   ASSERT_TRUE(document_.open(file()));
   EXPECT_EQ(document_.session().review, kept);
   EXPECT_EQ(sessions::checkLimits(kept.preset, kept.limits).inlier_count, 9000.0);
+}
+
+TEST_F(ReviewPanelTest, ConvergenceTestThatFails_IsReported) {
+  openRun();
+  QString message;
+  QObject::connect(&controller(), &ReviewController::failed, panel_.get(),
+                   [&](const QString& reported) { message = reported; });
+  // Fails with the first seed that is done.
+  QObject::connect(&controller(), &ReviewController::convergenceChanged, panel_.get(), [this] {
+    if (controller().convergenceSoFar().seeds > 0) throw std::bad_alloc();
+  });
+  controller().startConvergenceTest(1);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !message.isEmpty(); }, kPatienceMs));
+  EXPECT_TRUE(test::has(message, "The convergence test of"));
+  EXPECT_TRUE(test::has(message, firstCase().c_str()));
+  EXPECT_TRUE(checked()) << "and the checks remain";
+}
+
+TEST_F(ReviewPanelTest, ReasonThatIsTyped_IsForTheFigureThatWasShown) {
+  openRun();
+  requireInliers(9999.0);
+  const auto failed = [this] {
+    return *std::ranges::find(controller().checks(), CheckState::kFailed, &sessions::Check::state);
+  };
+  const sessions::Check before = failed();
+  panel_->activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(panel_.get()));
+  auto* reason = panel_->findChild<CheckCards*>()->findChild<QLineEdit*>();
+  reason->setFocus();
+  QTest::keyClicks(reason, QStringLiteral("known"));
+  requireInliers(10000.0);  // the field is left by this
+  ASSERT_EQ(failed().id, before.id);
+  ASSERT_FALSE(failed() == before);
+  EXPECT_EQ(controller().reasonFor(failed()), QString());
+}
+
+TEST_F(ReviewPanelTest, ReasonsOfASession_AreNotTakenIntoAnother) {
+  openRun();
+  requireInliers(10000.0);
+  const sessions::Check check =
+      *std::ranges::find(controller().checks(), CheckState::kFailed, &sessions::Check::state);
+  controller().setReason(check, QStringLiteral("known"));
+  EXPECT_EQ(controller().reasonFor(check), QStringLiteral("known"));
+  ASSERT_TRUE(document_.save());
+  document_.close();
+  ASSERT_TRUE(document_.open(file()));
+  EXPECT_EQ(controller().reasonFor(check), QString());
 }
 
 TEST_F(ReviewPanelTest, ConvergenceTest_EntersTheChecksAndCanBeStopped) {

@@ -5,6 +5,7 @@
 #include <QStringList>
 #include <QtTest/QTest>
 
+#include <cstddef>
 #include <functional>
 #include <future>
 #include <numeric>
@@ -19,51 +20,61 @@ namespace {
 
 using test::kPatienceMs;
 
-/// A runner, what its tasks gave, and a gate that holds a task until it is opened.
+template <class... Arguments>
+concept CanBeQueued = requires(TaskRunner runner, Arguments... arguments) {
+  runner.queue(arguments...);
+};
+
+using MakesInt = int (*)(const std::stop_token&);
+using TakesInt = void (*)(int);
+using TakesText = void (*)(const QString&);
+static_assert(CanBeQueued<MakesInt, TakesInt, TakesText>);
+static_assert(!CanBeQueued<MakesInt, TakesInt>, "who receives the failure?");
+static_assert(!CanBeQueued<MakesInt, TakesInt, std::nullptr_t>);
+
+/// A runner, what its tasks returned, and a gate that holds a task until it is opened.
 class TaskRunnerTest : public testing::Test {
  protected:
-  TaskRunnerTest() {
-    QObject::connect(&runner_, &TaskRunner::failed, &runner_,
-                     [this](const QString& message) { failures_ << message; });
-  }
   bool rests() {
     return QTest::qWaitFor([this] { return !runner_.isBusy(); }, kPatienceMs);
   }
-  void startValue(const QString& key, int value) {
-    runner_.start(
-        key, [value](const std::stop_token&) { return value; }, take_);
+  static auto valueOf(int value) {
+    return [value](const std::stop_token&) { return value; };
   }
-  /// A task that waits for the gate, then reports whether it was asked to stop.
-  void startGated(const QString& key) {
-    runner_.start(
-        key,
-        [gate = gate_.get_future().share()](const std::stop_token& stop) {
-          gate.wait();
-          return stop.stop_requested() ? 1000 : 2000;
-        },
-        take_);
+  /// Waits for the gate, then reports whether it was asked to stop.
+  auto gated() {
+    return [gate = gate_.get_future().share()](const std::stop_token& stop) {
+      gate.wait();
+      return stop.stop_requested() ? 1000 : 2000;
+    };
   }
 
   std::promise<void> gate_;
   std::vector<int> taken_;
   const std::function<void(int)> take_ = [this](int result) { taken_.push_back(result); };
   QStringList failures_;
+  const std::function<void(const QString&)> fail_ = [this](const QString& message) {
+    failures_ << message;
+  };
+  const TaskKind first_;
+  const TaskKind second_;
+  const TaskKind third_;
   TaskRunner runner_;
 };
 
-TEST_F(TaskRunnerTest, TakesValuesInTheirOrderOnTheOwnersThread) {
+TEST_F(TaskRunnerTest, QueuedTasks_AreAllTakenInTheirOrderOnTheOwnersThread) {
   const auto current = std::this_thread::get_id();
   bool here_as_well = true;
   for (int i = 0; i < 20; ++i) {
-    runner_.start(
-        QString::number(i),
+    runner_.queue(
         [i, current](const std::stop_token&) {
           return std::this_thread::get_id() == current ? -1 : i;
         },
         [&](int result) {
           here_as_well = here_as_well && std::this_thread::get_id() == current;
           taken_.push_back(result);
-        });
+        },
+        fail_);
   }
   ASSERT_TRUE(rests());
   std::vector<int> expected(20);
@@ -73,39 +84,39 @@ TEST_F(TaskRunnerTest, TakesValuesInTheirOrderOnTheOwnersThread) {
 }
 
 TEST_F(TaskRunnerTest, OfOneKindOnlyTheNewestCounts) {
-  startGated(QStringLiteral("gated"));
-  for (int i = 0; i < 5; ++i) startValue(QStringLiteral("value"), i);
-  startValue(QStringLiteral("gated"), 7);
+  runner_.replace(first_, gated(), take_, fail_);
+  for (int i = 0; i < 5; ++i) runner_.replace(second_, valueOf(i), take_, fail_);
+  runner_.replace(first_, valueOf(7), take_, fail_);
   gate_.set_value();
   ASSERT_TRUE(rests());
   EXPECT_EQ(taken_, (std::vector<int>{4, 7}));
 }
 
 TEST_F(TaskRunnerTest, CancelledTask_IsNotDelivered) {
-  startGated(QStringLiteral("gated"));
-  startValue(QStringLiteral("value"), 1);
-  startValue(QStringLiteral("other"), 2);
-  runner_.cancel(QStringLiteral("gated"));
-  runner_.cancel(QStringLiteral("value"));
+  runner_.replace(first_, gated(), take_, fail_);
+  runner_.replace(second_, valueOf(1), take_, fail_);
+  runner_.replace(third_, valueOf(2), take_, fail_);
+  runner_.cancel(first_);
+  runner_.cancel(second_);
   gate_.set_value();
   ASSERT_TRUE(rests());
   EXPECT_EQ(taken_, std::vector<int>{2});
 }
 
 TEST_F(TaskRunnerTest, StoppedTask_IsDelivered) {
-  startGated(QStringLiteral("gated"));
-  runner_.stop(QStringLiteral("gated"));
+  runner_.replace(first_, gated(), take_, fail_);
+  runner_.stop(first_);
   gate_.set_value();
   ASSERT_TRUE(rests());
   EXPECT_EQ(taken_, std::vector<int>{1000});
 }
 
 TEST_F(TaskRunnerTest, AStopReachesATaskThatStillWaits) {
-  startGated(QStringLiteral("first"));
-  runner_.start(
-      QStringLiteral("second"),
-      [](const std::stop_token& stop) { return stop.stop_requested() ? 1 : 0; }, take_);
-  runner_.stop(QStringLiteral("second"));
+  runner_.replace(first_, gated(), take_, fail_);
+  runner_.replace(
+      second_, [](const std::stop_token& stop) { return stop.stop_requested() ? 1 : 0; }, take_,
+      fail_);
+  runner_.stop(second_);
   gate_.set_value();
   ASSERT_TRUE(rests());
   EXPECT_EQ(taken_, (std::vector<int>{2000, 1}));
@@ -113,45 +124,48 @@ TEST_F(TaskRunnerTest, AStopReachesATaskThatStillWaits) {
 
 TEST_F(TaskRunnerTest, ReportsOnTheWayAndNothingMoreOnceCancelled) {
   const auto gate = gate_.get_future().share();
-  runner_.run(QStringLiteral("long"),
-              [this, gate](const std::stop_token&, const TaskRunner::Report& report) {
-                report([this] { taken_.push_back(1); });
-                gate.wait();
-                report([this] { taken_.push_back(2); });
-              });
+  const auto work = [this, gate](const std::stop_token&, const TaskRunner::Report& report) {
+    report([this] { taken_.push_back(1); });
+    gate.wait();
+    report([this] { taken_.push_back(2); });
+  };
+  runner_.replace(first_, work, fail_);
   ASSERT_TRUE(QTest::qWaitFor([this] { return !taken_.empty(); }, kPatienceMs));
   EXPECT_TRUE(runner_.isBusy());
-  runner_.cancel(QStringLiteral("long"));
+  runner_.cancel(first_);
   gate_.set_value();
   ASSERT_TRUE(rests());
   EXPECT_EQ(taken_, std::vector<int>{1});
 }
 
-TEST_F(TaskRunnerTest, SaysWhyATaskFailedAndGoesOn) {
+TEST_F(TaskRunnerTest, FailureOfAnyKind_IsReceivedAsASentence_UnlessTheTaskWasDropped) {
   const auto throwing = [](const std::stop_token&) -> int { throw std::runtime_error("no luck"); };
-  runner_.start(QStringLiteral("bad"), throwing, take_);
-  runner_.start(
-      QStringLiteral("large"), [](const std::stop_token&) -> int { throw std::bad_alloc(); },
-      [](int) {});
-  runner_.start(QStringLiteral("dropped"), throwing, [](int) {});
-  runner_.cancel(QStringLiteral("dropped"));
-  startValue(QStringLiteral("good"), 3);
+  runner_.queue(throwing, take_, fail_);
+  runner_.queue([](const std::stop_token&) -> int { throw std::bad_alloc(); }, take_, fail_);
+  runner_.queue([](const std::stop_token&) -> int { throw 5; }, take_, fail_);
+  runner_.queue(
+      valueOf(2), [](int) { throw std::runtime_error("not taken"); }, fail_);
+  runner_.replace(first_, throwing, take_, fail_);
+  runner_.cancel(first_);
+  runner_.queue(valueOf(3), take_, fail_);
   ASSERT_TRUE(rests());
   EXPECT_EQ(taken_, std::vector<int>{3});
-  ASSERT_EQ(failures_.size(), 2);
+  ASSERT_EQ(failures_.size(), 4);
+  EXPECT_EQ(failures_[3], QStringLiteral("not taken"));
   EXPECT_EQ(failures_[0], QStringLiteral("no luck"));
   EXPECT_TRUE(failures_[1].contains(QStringLiteral("Not enough memory")));
+  EXPECT_FALSE(failures_[2].isEmpty());
 }
 
 TEST(TaskRunner, Destruction_WhileATaskRuns_IsSafe) {
   std::promise<void> begun;
   TaskRunner runner;
-  runner.run(QStringLiteral("endless"),
-             [&begun](const std::stop_token& stop, const TaskRunner::Report& report) {
-               begun.set_value();
-               while (!stop.stop_requested()) std::this_thread::yield();
-               report([] { FAIL() << "its owner is gone"; });
-             });
+  const auto work = [&begun](const std::stop_token& stop, const TaskRunner::Report& report) {
+    begun.set_value();
+    while (!stop.stop_requested()) std::this_thread::yield();
+    report([] { FAIL() << "its owner is gone"; });
+  };
+  runner.queue(work, [](const QString&) {});
   begun.get_future().wait();
 }
 

@@ -234,8 +234,7 @@ class GesturesTest : public CanvasToolsTest {
   }
   bool showCase(std::size_t index) {
     window_.cases().chooseCase(QString::fromStdString(idOf(index)));
-    return wait(
-        [&] { return window_.state().currentCase()->source.id == idOf(index) && resting(); });
+    return showsCase(idOf(index));
   }
   void clickPixel(const QPointF& pixel) {
     const QPointF at = view().transform().toWidget(pixel);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/session/ignore_strokes.h"
 #include "tests/ui/window_test.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/window_frame.h"
@@ -48,6 +49,37 @@ TEST_F(ChangeInputTest, AnotherCamera_IsTakenAndNamesItsMisfit) {
   EXPECT_EQ(verdict().sentence,
             QStringLiteral("The camera is for 640 x 480 px, the image is 512 x 512 px."));
   EXPECT_EQ(verdict().step_text, QStringLiteral("Choose camera..."));
+}
+
+/// Reading takes a while; nothing is disabled meanwhile.
+TEST_F(ChangeInputTest, EditsAndOtherInputsDuringTheReading_AreKept) {
+  nlohmann::ordered_json camera = {{"format", "boresight-camera"}, {"version", 1}};
+  Camera longer = shown().camera;
+  longer.fx += 1.0;
+  camera.update(sessions::toJson(longer));
+  const std::filesystem::path mesh = shown().parts.front().source.mesh;
+  change(InputKind::kCamera, folder_.write("camera.json", camera.dump()));
+  change(InputKind::kMesh, mesh, "mm");
+  sessions::MaskStroke stroke;
+  stroke.kind = sessions::StrokeKind::kSaturation;
+  stroke.level = 250;
+  const std::string id = shown().id;
+  ASSERT_TRUE(window_.document().edit(
+      sessions::withStroke(window_.document().session(), id, stroke), QStringLiteral("Stroke")));
+  ASSERT_TRUE(wait([&] { return shown().parts.front().source.mesh_unit == "mm" && resting(); }));
+  EXPECT_EQ(shown().camera.fx, longer.fx) << "chosen before the mesh";
+  EXPECT_EQ(shown().ignore_strokes.size(), 1u);
+}
+
+TEST_F(ChangeInputTest, AnotherSessionDuringTheReading_DoesNotGetTheCase) {
+  const std::filesystem::path mesh = shown().parts.front().source.mesh;
+  change(InputKind::kMesh, mesh, "mm");
+  const sessions::Session other = test::withoutSearch(test::exampleSession());
+  newFile();
+  ASSERT_TRUE(window_.document().create(file_, other));
+  ASSERT_TRUE(wait([&] { return window_.lastMessage().contains(QLatin1String("not used")); }));
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(window_.document().session() == other);
 }
 
 TEST_F(ChangeInputTest, UnreadableFile_ChangesNothing) {

@@ -68,6 +68,34 @@ TEST_F(InputFindingsTest, MissingImage_NotFoundBelowTheFolder_IsNamedWithWhatToD
   EXPECT_EQ(window_.findings().findings().size(), 1u);
 }
 
+TEST_F(InputFindingsTest, RestoredFile_IsFoundAndReadByFix) {
+  open();
+  fs::rename(image(), image().string() + ".away");
+  reopen();
+  ASSERT_EQ(window_.findings().findings().size(), 1u);
+  fs::rename(image().string() + ".away", image());  // as the advice says
+  window_.findings().repair();
+  settle();
+  EXPECT_FALSE(window_.lastMessage().contains(QStringLiteral("None of the missing files")));
+  EXPECT_TRUE(window_.findings().findings().empty());
+  ASSERT_TRUE(wait([this] { return window_.state().currentCase() != nullptr; }));
+}
+
+TEST_F(InputFindingsTest, AnotherFileInPlaceOfAMissingOne_EndsItsFinding) {
+  open();
+  fs::copy(image(), inputs_ / "bc" / "new.png");
+  fs::remove(image());
+  reopen();
+  ASSERT_EQ(window_.findings().findings().size(), 1u);
+  window_.cases().changeInput(window_.cases().caseId(), sessions::InputKind::kImage,
+                              inputs_ / "bc" / "new.png", {});
+  ASSERT_TRUE(wait([this] { return window_.document().canUndo(); }));
+  settle();
+  EXPECT_TRUE(window_.findings().findings().empty());
+  EXPECT_TRUE(window_.findings().adviceFor(window_.cases().caseId()).isEmpty());
+  EXPECT_NE(window_.state().currentCase(), nullptr);
+}
+
 TEST_F(InputFindingsTest, AnotherCasesImageIsNotShownUnderTheNameOfOneThatIsMissing) {
   open({});
   const QString first = window_.cases().caseId();

@@ -126,8 +126,8 @@ TEST_F(MainWindowTest, AllCasesAreRunAndCountedWhileTheShownCaseStays) {
   const QString shown = window_.cases().caseId();
   QStringList said;
   QStringList chosen;
-  QObject::connect(&window_.cases(), &CaseController::caseChosen, &window_,
-                   [&](const QString& id) { chosen << id; });
+  window_.state().onChange(ViewChange::kOtherCase, &window_,
+                           [&] { chosen << window_.cases().caseId(); });
   QObject::connect(&window_.cases(), &CaseController::batchChanged, &window_, [&] {
     const QString text = runState() + QLatin1Char(' ') + find<QLabel>("jobCount").text();
     if (said.isEmpty() || said.back() != text) said << text;

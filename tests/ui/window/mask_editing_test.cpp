@@ -183,8 +183,7 @@ TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_TRUE(strokes("second").empty());
   // The case whose edit was undone is shown.
-  ASSERT_TRUE(
-      wait([&] { return window_.state().currentCase()->source.id == "second" && resting(); }));
+  ASSERT_TRUE(showsCase("second"));
   const QList<QAction*> offered = find<QPushButton>("takeStroke").menu()->actions();
   ASSERT_EQ(offered.size(), 1);
   offered[0]->trigger();

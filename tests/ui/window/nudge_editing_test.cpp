@@ -28,7 +28,7 @@ class NudgeEditingTest : public test::SharedWindowTest {
   }
   bool shows(const std::string& id) {
     window_.cases().chooseCase(QString::fromStdString(id));
-    return wait([&] { return window_.state().currentCase()->source.id == id && resting(); });
+    return showsCase(id);
   }
   void undo() { QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier); }
 

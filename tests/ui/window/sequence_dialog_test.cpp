@@ -64,7 +64,7 @@ TEST_F(SequenceDialogTest, Folder_GivesAStoredRowAFrame_WhichShowsItsImageAndOut
   EXPECT_TRUE(edges.style.visible);
 }
 
-TEST_F(SequenceDialogTest, FieldOfResults_CanBeEmptied) {
+TEST_F(SequenceDialogTest, FieldOfResults_CanBeEmptied_UntilOtherImagesAreChosen) {
   dialog_->setImages(test::approachFolder() / "frames");
   auto& results = find<QLineEdit>("sequenceResults");
   results.setFocus();
@@ -74,6 +74,10 @@ TEST_F(SequenceDialogTest, FieldOfResults_CanBeEmptied) {
   EXPECT_FALSE(find<QPushButton>("sequenceRun").isEnabled());
   QTest::keyClicks(&results, QStringLiteral("/x.sqlite"));
   EXPECT_EQ(results.text(), QStringLiteral("/x.sqlite"));
+  results.selectAll();
+  QTest::keyClick(&results, Qt::Key_Delete);
+  dialog_->setImages(test::approachFolder() / "other");
+  EXPECT_TRUE(results.text().endsWith(QStringLiteral("other.sqlite")));
 }
 
 TEST_F(SequenceDialogTest, Cancel_KeepsTheFramesAndRunGoesOn) {

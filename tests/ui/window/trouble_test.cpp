@@ -109,7 +109,10 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
   {
     Answers answers{QStringLiteral("Cancel")};
     EXPECT_FALSE(window_.close()) << "the run would be lost";
-    EXPECT_TRUE(test::has(answers.text, "No space"));
+    EXPECT_TRUE(test::has(answers.text, "are not stored"));
+    const QString reason = window_.cases().unstoredReason();
+    EXPECT_FALSE(reason.isEmpty());
+    EXPECT_TRUE(answers.text.contains(reason)) << "why";
   }
   window_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
@@ -117,6 +120,29 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
   ASSERT_TRUE(wait([this] { return window_.document().session().runs.size() == 1; }));
   EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
   ASSERT_TRUE(window_.document().save());
+}
+
+TEST_F(TroubleTest, BatchWhoseFirstRunIsStoredElsewhere_RunsEveryCaseOnce) {
+  sessions::Session session = test::withoutSearch(test::exampleSession());
+  QStringList ids;
+  for (int i = 0; i < 4; ++i) {
+    sessions::SessionCase copy = *session.cases[0];
+    copy.id = "copy" + std::to_string(i);
+    ids << QString::fromStdString(copy.id);
+    session = sessions::withCase(session, copy);
+  }
+  open(session);
+  RoomElsewhere room{elsewhere_};
+  window_.cases().runAll(ids);
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  QStringList ran;
+  for (const auto& run : window_.document().session().runs)
+    ran << QString::fromStdString(run.case_id);
+  ran.sort();
+  EXPECT_EQ(ran, ids);
+  ASSERT_TRUE(window_.cases().lastBatch());
+  EXPECT_EQ(window_.cases().lastBatch()->count(), 4);
+  EXPECT_EQ(window_.cases().lastBatch()->of, 4);
 }
 
 TEST_F(TroubleTest, AFullDiskWhileSavingLeavesTheOldFileAndTheEdits) {

@@ -189,6 +189,15 @@ TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdatedInRunAndReview) {
   }
 }
 
+/// For the seconds after a session is opened the count of failed checks is not known.
+TEST(Verdict, ValidationWhoseChecksAreNotMeasured_HasNoShieldAndNoTone) {
+  Situation situation = validated();
+  EXPECT_EQ(verdictOf(situation).icon, Icon::kShield);
+  situation.review.current = false;
+  EXPECT_EQ(verdictOf(situation).tone, Tone::kPlain);
+  EXPECT_NE(verdictOf(situation).icon, Icon::kShield);
+}
+
 TEST(Verdict, ValidationWithAWaivedCheckOrByOnePersonOfTwo_IsCaution) {
   Situation situation = validated();
   situation.review.failed = 1;

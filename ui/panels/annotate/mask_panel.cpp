@@ -127,25 +127,32 @@ void MaskPanel::askForSaturated() {
 }
 
 void MaskPanel::nameChosen() {
-  MaskStrokes strokes = case_->ignore_strokes;
+  if (!case_ || chosen() < 0) return;
+  const sessions::SessionCase seen = *case_;
+  MaskStrokes strokes = seen.ignore_strokes;
   std::string& name = strokes[static_cast<std::size_t>(chosen())].name;
   bool accepted = false;
   const QString given =
       QInputDialog::getText(this, tr("Name of the stroke"), tr("Name"), QLineEdit::Normal,
                             QString::fromStdString(name), &accepted);
   if (!accepted) return;
+  if (!case_ || case_->id != seen.id || case_->ignore_strokes != seen.ignore_strokes)
+    return failed(tr("The stroke was not named: the mask that is shown has changed."));
   name = given.trimmed().toStdString();
-  Q_EMIT strokesRequested(strokes, tr("Name a stroke of the ignore mask"));
+  Q_EMIT strokesRequested(seen.id, strokes, tr("Name a stroke of the ignore mask"));
 }
 
 void MaskPanel::removeChosen() {
+  if (!case_ || chosen() < 0) return;
   MaskStrokes strokes = case_->ignore_strokes;
   strokes.erase(strokes.begin() + chosen());
-  Q_EMIT strokesRequested(strokes, tr("Remove a stroke of the ignore mask"));
+  Q_EMIT strokesRequested(case_->id, strokes, tr("Remove a stroke of the ignore mask"));
 }
 
 void MaskPanel::clearAll() {
-  if (case_) Q_EMIT strokesRequested(sessions::clearedStrokes(*case_), tr("Clear the ignore mask"));
+  if (case_)
+    Q_EMIT strokesRequested(case_->id, sessions::clearedStrokes(*case_),
+                            tr("Clear the ignore mask"));
 }
 
 }  // namespace boresight::ui

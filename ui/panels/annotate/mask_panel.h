@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <QWidget>
 
@@ -33,8 +34,11 @@ class MaskPanel : public QWidget {
 
  Q_SIGNALS:
   void strokeRequested(const boresight::sessions::MaskStroke& stroke);
-  /// The new strokes of the case; the text describes the edit.
-  void strokesRequested(const boresight::sessions::MaskStrokes& strokes, const QString& text);
+  /// The new strokes of the case with this id; the text describes the edit.
+  void strokesRequested(const std::string& case_id, const boresight::sessions::MaskStrokes& strokes,
+                        const QString& text);
+  /// The case of a dialog is no longer shown; one sentence.
+  void failed(const QString& message);
   void copyRequested(int stroke);
 
  private:

@@ -13,8 +13,6 @@
 namespace boresight::ui {
 namespace {
 
-QString calibrationTask() { return QStringLiteral("calibration"); }
-
 /// Pixels with three decimals; coefficients with four digits.
 QString figureText(const sessions::CalibratedValue& value, double figure) {
   return value.unit.empty() ? QString::number(figure, 'g', 4) : numberText(figure, 3);
@@ -65,19 +63,21 @@ CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRun
       QHeaderView::ResizeToContents);
   connect(ui_.calibrate, &QPushButton::clicked, this, &CalibrationPanel::calibrate);
   connect(ui_.use, &QPushButton::clicked, this, &CalibrationPanel::use);
-  connect(&document_, &Document::opened, this, [this] { forget(purpose()); });
   state_.onChange(ViewChange::kCase, this, [this] {
-    const std::string shown = shownCaseId(document_, state_);
-    if (case_id_.empty() || shown != case_id_) forget(purpose());
+    if (opening_ == state_.opening()) return;  // an edit, or the case is there
+    forget(purpose());
+    opening_ = state_.opening();
   });
+  state_.onChange(ViewChange::kCase, this,
+                  [this] { ui_.calibrate->setEnabled(state_.currentCase() && !calibrates_); });
   forget(purpose());
 }
 
 /// Drops the calibration: it is of another camera, or there is none.
 void CalibrationPanel::forget(const QString& reason) {
-  tasks_.cancel(calibrationTask());
+  tasks_.cancel(calibrating_);
   calibration_.reset();
-  case_id_.clear();
+  calibrates_ = false;
   ui_.calibrationParameters->setRowCount(0);
   ui_.use->setEnabled(false);
   ui_.calibrate->setEnabled(state_.currentCase() != nullptr);
@@ -92,33 +92,32 @@ void CalibrationPanel::calibrate() {
   const sessions::SessionCase* shown = shownCase(document_, state_);
   if (shown == nullptr) return;
   forget(tr("Calibrating ..."));
-  case_id_ = shown->id;
+  calibrates_ = true;
   ui_.calibrate->setEnabled(false);
-  tasks_.start(
-      calibrationTask(),
+  tasks_.replace(
+      calibrating_,
       [session = document_.session(), id = shown->id, source, free](const std::stop_token&) {
         return sessions::calibrateCameraOf(session, id, source, free);
       },
-      [this, id = shown->id, before = shown->camera](
-          const sessions::CameraCalibration& calibration) { take(id, before, calibration); },
+      [this, before = shown->camera](const sessions::CameraCalibration& calibration) {
+        take(before, calibration);
+      },
       [this](const QString& problem) { forget(tr("Not calibrated: %1.").arg(problem)); });
 }
 
-void CalibrationPanel::take(const std::string& case_id, const Camera& before,
-                            const sessions::CameraCalibration& calibration) {
-  if (shownCaseId(document_, state_) != case_id) return forget(purpose());
+void CalibrationPanel::take(const Camera& before, const sessions::CameraCalibration& calibration) {
   const auto values = sessions::calibratedValues(before, calibration);
   forget(summaryText(calibration, values));
   calibration_ = calibration;
-  case_id_ = case_id;
   for (const sessions::CalibratedValue& value : values)
     addRow(*ui_.calibrationParameters, rowOf(value));
   ui_.use->setEnabled(calibration.undetermined.empty());
 }
 
 void CalibrationPanel::use() {
-  if (!calibration_ || !document_.session().findCase(case_id_)) return;
-  document_.edit(sessions::withCalibration(document_.session(), case_id_, *calibration_),
+  const std::string id = shownCaseId(document_, state_);
+  if (!calibration_ || id.empty()) return;
+  document_.edit(sessions::withCalibration(document_.session(), id, *calibration_),
                  tr("Use the calibrated camera"));
 }
 

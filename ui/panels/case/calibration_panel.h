@@ -9,12 +9,12 @@
 #include "ui_calibration_panel.h"
 
 #include "sessions/calibration/camera_calibration.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
 class Document;
-class TaskRunner;
-class ViewState;
 
 /// Calibrates the shown case's camera from all cases that have it; the result can be applied to
 /// these cases.
@@ -26,16 +26,17 @@ class CalibrationPanel : public QWidget {
 
  private:
   void calibrate();
-  void take(const std::string& case_id, const Camera& before,
-            const sessions::CameraCalibration& calibration);
+  void take(const Camera& before, const sessions::CameraCalibration& calibration);
   void use();
   void forget(const QString& reason);
 
   Document& document_;
   ViewState& state_;
   TaskRunner& tasks_;
+  TaskKind calibrating_;
   std::optional<sessions::CameraCalibration> calibration_;
-  std::string case_id_;  ///< case of the calibrated camera
+  bool calibrates_ = false;
+  CaseOpening opening_;  ///< case of the calibrated camera
   Ui::CalibrationPanel ui_;
 };
 

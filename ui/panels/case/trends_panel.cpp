@@ -100,8 +100,8 @@ void TrendsPanel::follow() {
   if (wanted == read_) return;
   read_ = std::move(wanted);
   ui_.trendNote->setText(tr("Reading %n run(s) ...", "", static_cast<int>(read_.first.size())));
-  reader_.start(
-      QStringLiteral("trends"),
+  reader_.replace(
+      reading_,
       [session = document_.session(), file = document_.file(),
        earlier = earlier_](const std::stop_token& stop) {
         Trend trend;
@@ -128,7 +128,7 @@ void TrendsPanel::take(const Trend& trend) {
   QString note = trend.points.empty()
                      ? tr("No converged run yet.")
                      : tr("%1 of %2 runs stand out.").arg(flagged).arg(trend.points.size());
-  if (!trend.remarks.isEmpty())
+  if (!trend.points.empty() && !trend.remarks.isEmpty())
     note += tr(" %n case(s) without a converged run.", "", static_cast<int>(trend.remarks.size()));
   ui_.trendNote->setText(note);
   ui_.trendNote->setToolTip(trend.remarks.join(QLatin1Char('\n')));

@@ -68,7 +68,8 @@ class TrendsPanel : public QWidget {
   TrendsModel model_;
   std::vector<std::filesystem::path> earlier_;
   Source read_;
-  TaskRunner reader_;  ///< only the newest trend is used
+  TaskRunner reader_;
+  TaskKind reading_;
   DoublePlot* plot_ = nullptr;
   Ui::TrendsPanel ui_;
 };

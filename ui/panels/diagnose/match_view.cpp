@@ -67,8 +67,6 @@ std::vector<TableColumn<MatchDetails>> templateColumns() {
   };
 }
 
-const QString kScoreMapTask = QStringLiteral("score map");
-
 QString pairText(const Eigen::Vector2d& pixel, int decimals) {
   return QStringLiteral("%1, %2").arg(numberText(pixel.x(), decimals),
                                       numberText(pixel.y(), decimals));
@@ -127,7 +125,7 @@ bool TemplatesModel::isShown(int row, Show show) const {
 MatchView::MatchView(QWidget* parent) : QWidget(parent) { ui_.setupUi(this); }
 
 void MatchView::showNote(const QString& note) {
-  runner_.cancel(kScoreMapTask);
+  runner_.cancel(scoring_);
   for (PixelPicture* picture : {ui_.templatePicture, ui_.foundPicture, ui_.agreementPicture})
     picture->setPicture({}, {});
   ui_.places->clear();
@@ -138,7 +136,7 @@ void MatchView::showNote(const QString& note) {
 void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
                           std::shared_ptr<const sessions::IterationTrace> iteration,
                           int template_index) {
-  runner_.cancel(kScoreMapTask);
+  runner_.cancel(scoring_);
   const auto index = static_cast<std::size_t>(template_index);
   const bool searched = index < iteration->matches.size() && iteration->matches[index].searched;
   const Match* match = searched ? &iteration->matches[index] : nullptr;
@@ -155,8 +153,8 @@ void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
   ui_.map->setNote(tr("Computing the score map ..."));
   const Template& item = iteration->templates[index];
   const ScoreMapView::Marks marks = {item.center_x, item.center_y, match->peak};
-  runner_.start(
-      kScoreMapTask,
+  runner_.replace(
+      scoring_,
       [edges, iteration, template_index](const std::stop_token& stop) {
         return sessions::scoreMap(*edges, *iteration, template_index, stop);
       },
@@ -165,7 +163,8 @@ void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
           ui_.map->setMap(std::make_shared<const sessions::ScoreMap>(std::move(*map)), marks);
         else
           ui_.map->setNote(tr("The run's record has no data for the score map."));
-      });
+      },
+      [this](const QString& message) { ui_.map->setNote(message); });
 }
 
 void MatchView::showPictures(const sessions::EdgeMapTrace& edges,

@@ -79,7 +79,8 @@ class MatchView : public QWidget {
                    const sessions::MatchDetails& details);
 
   Ui::MatchView ui_;
-  TaskRunner runner_;  ///< only the newest template is used
+  TaskRunner runner_;
+  TaskKind scoring_;
 };
 
 }  // namespace boresight::ui

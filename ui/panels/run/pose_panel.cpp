@@ -222,9 +222,13 @@ void PosePanel::copyPose(PoseRole role, sessions::PoseForm form) {
 
 void PosePanel::pastePose() {
   if (!state_.currentCase()) return;
+  const CaseOpening seen = state_.opening();
   PastePoseDialog dialog(QGuiApplication::clipboard()->text(), this);
-  if (dialog.exec() == QDialog::Accepted && dialog.parsed().valid)
+  if (dialog.exec() != QDialog::Accepted || !dialog.parsed().valid) return;
+  if (seen == state_.opening())
     controller_.setPose(dialog.parsed().camera_from_station);
+  else
+    Q_EMIT failed(leftText(seen));
 }
 
 void PosePanel::refresh() {

@@ -56,6 +56,10 @@ class PosePanel : public QWidget {
   /// Asks how to read the clipboard's text and nudges to that pose.
   void pastePose();
 
+ Q_SIGNALS:
+  /// The case of a dialog is no longer shown; one sentence.
+  void failed(const QString& message);
+
  private:
   const std::optional<Pose>& pose(PoseRole role) const {
     return poses_[static_cast<std::size_t>(role)];

@@ -17,7 +17,7 @@ namespace {
 constexpr int kDigest = Qt::UserRole;
 constexpr const char* kPinnedKey = "pinnedRuns";
 
-enum RunColumn { kPin, kTime, kStatus, kChanged, kMoved, kColumns };
+enum RunColumn { kPin, kTime, kStatus, kChanged, kMoved, kRunColumns };
 
 constexpr int kMostPins = 500;
 
@@ -77,7 +77,7 @@ void RunsPanel::fill() {
     item->setData(kTime, kDigest, fromText(run.digest));
     if (run.digest == selected) ui_.runs->setCurrentItem(item);
     if (run.digest != listed_.shown) continue;
-    for (int i = 0; i < kColumns; ++i) item->setFont(i, boldFont(font()));
+    for (int i = 0; i < kRunColumns; ++i) item->setFont(i, boldFont(font()));
   }
   showLines();
 }
@@ -87,15 +87,16 @@ void RunsPanel::askForLines(const std::vector<sessions::RunRecord>& runs) {
   if (runs == read_ || !isVisible() || !state_.currentCase()) return;
   read_ = runs;
   lines_.clear();
-  reader_.start(
-      QStringLiteral("run list"),
+  reader_.replace(
+      reading_,
       [runs, loaded = state_.currentCase()](const std::stop_token& stop) {
         return sessions::runListLines(runs, *loaded, stop);
       },
       [this](std::vector<sessions::RunListLine> lines) {
         lines_ = std::move(lines);
         showLines();
-      });
+      },
+      reportTo(this, &RunsPanel::failed));
 }
 
 void RunsPanel::showLines() {
@@ -111,7 +112,7 @@ void RunsPanel::showLines() {
       if (lines_[i].moved) item.setText(kMoved, fromText(poseDistanceText(*lines_[i].moved)));
     }
   }
-  for (int i = 0; i < kColumns; ++i) ui_.runs->resizeColumnToContents(i);
+  for (int i = 0; i < kRunColumns; ++i) ui_.runs->resizeColumnToContents(i);
 }
 
 void RunsPanel::showEvent(QShowEvent* event) {

@@ -30,6 +30,8 @@ class RunsPanel : public QWidget {
   bool isBusy() const { return reader_.isBusy(); }
 
  Q_SIGNALS:
+  /// The list cannot be read; one sentence.
+  void failed(const QString& message);
   void openRequested(const std::string& digest);
   void compareRequested(const std::string& digest);
 
@@ -59,7 +61,8 @@ class RunsPanel : public QWidget {
   Listed listed_;
   std::vector<sessions::RunRecord> read_;     ///< runs of the lines, in the order of the session
   std::vector<sessions::RunListLine> lines_;  ///< of `read_`; empty until they are read
-  TaskRunner reader_;                         ///< only the newest list is used
+  TaskRunner reader_;
+  TaskKind reading_;
   Ui::RunsPanel ui_;
 };
 

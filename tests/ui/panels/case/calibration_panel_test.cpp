@@ -46,7 +46,7 @@ TEST_F(CalibrationPanelTest, ResultForAnotherCase_IsNotShown) {
   find<QPushButton>("calibrate").click();
   const std::string other = window_.document().session().cases[1]->id;
   window_.cases().chooseCase(QString::fromStdString(other));
-  ASSERT_TRUE(wait([&] { return window_.state().currentCase()->source.id == other && resting(); }));
+  ASSERT_TRUE(showsCase(other));
   EXPECT_EQ(find<QTableWidget>("calibrationParameters").rowCount(), 0);
   EXPECT_FALSE(find<QPushButton>("use").isEnabled());
 }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/run/document_tasks.h"
+
+#include "ui/models/text.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+
+DocumentTasks::DocumentTasks(const Document& document, TaskRunner& tasks)
+    : document_(document), tasks_(tasks), opened_(std::make_shared<const QString>()) {
+  connect(&document, &Document::opened, this, [this] {
+    opened_ = std::make_shared<const QString>(fromText(document_.file().filename().string()));
+  });
+}
+
+/// Whether a result can be used: its session is open, and has its case.
+bool DocumentTasks::holds(const Opened& begun, const std::string& id, const QString& name) {
+  if (begun != opened_)
+    Q_EMIT failed(begun->isEmpty() ? tr("%1 was not used: another session was opened.").arg(name)
+                                   : tr("%1 was not used: it belongs to %2, which is not open any "
+                                        "more.")
+                                         .arg(name, *begun));
+  else if (!id.empty() && !document_.session().findCase(id))
+    Q_EMIT failed(tr("%1 was not used: %2 was removed from the session.").arg(name, fromText(id)));
+  else
+    return true;
+  return false;
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <QObject>
+#include <QString>
+
+#include "ui/run/task_runner.h"
+
+namespace boresight::ui {
+
+class Document;
+
+/// Tasks whose results belong to the session, or to a case of it, that is open when they begin: a
+/// result, or a failure, of a session that is left is dropped and reported. Arguments are those of
+/// TaskRunner; `name` is the subject of the report: "The new camera of bc-000004".
+class DocumentTasks : public QObject {
+  Q_OBJECT
+
+ public:
+  DocumentTasks(const Document& document, TaskRunner& tasks);
+
+  template <class Make, class Done, FailureReceiver Failed>
+  void ofDocument(const QString& name, Make make, Done done, Failed failed) {
+    tasks_.queue(std::move(make), ifHeld({}, name, std::move(done)),
+                 ifHeld({}, name, std::move(failed)));
+  }
+  /// The result is also dropped where the case has been removed.
+  template <class Make, class Done, FailureReceiver Failed>
+  void ofCase(const TaskKind& kind, const std::string& id, const QString& name, Make make,
+              Done done, Failed failed) {
+    tasks_.replace(kind, std::move(make), ifHeld(id, name, std::move(done)),
+                   ifHeld({}, name, std::move(failed)));
+  }
+
+ Q_SIGNALS:
+  /// A result was dropped; one sentence.
+  void failed(const QString& message);
+
+ private:
+  using Opened = std::shared_ptr<const QString>;
+
+  /// Calls `take` while the session that is open now is open, and has the case (if not empty).
+  template <class Take>
+  auto ifHeld(const std::string& id, const QString& name, Take take) {
+    return [this, id, name, begun = opened_, take = std::move(take)](auto&& value) {
+      if (holds(begun, id, name)) take(std::forward<decltype(value)>(value));
+    };
+  }
+  bool holds(const Opened& begun, const std::string& id, const QString& name);
+
+  const Document& document_;
+  TaskRunner& tasks_;
+  Opened opened_;  ///< name of the open session; another object for each opening
+};
+
+}  // namespace boresight::ui
