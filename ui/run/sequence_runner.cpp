@@ -13,8 +13,12 @@ QString sequenceKey() { return QStringLiteral("sequence"); }
 
 SequenceProgress progressOf(const sessions::CaseSequence& sequence) {
   const sessions::Sequence& frames = sequence.sequence();
-  return {frames.frames(), sequence.total(), static_cast<std::int64_t>(frames.lost().size()),
-          sequence.framesPerSecond(), QString::fromStdString(sessions::sequenceText(frames))};
+  return {frames.frames(),
+          sequence.total(),
+          static_cast<std::int64_t>(frames.lost().size()),
+          sequence.framesPerSecond(),
+          QString::fromStdString(sessions::sequenceText(frames)),
+          sequence.notes()};
 }
 
 }  // namespace
@@ -46,7 +50,10 @@ void SequenceRunner::start(const sessions::SequenceOrder& order,
     while (const auto result = sequence.next(stop))
       report([this, row = sessions::sequenceRow(*result, centre_m),
               progress = progressOf(sequence)] { take(row, progress); });
-    report([this] { end(); });
+    report([this, progress = progressOf(sequence)] {
+      progress_ = progress;
+      end();
+    });
   });
   Q_EMIT changed();
 }
