@@ -11,8 +11,12 @@ namespace {
 
 SequenceProgress progressOf(const sessions::CaseSequence& sequence) {
   const sessions::Sequence& frames = sequence.sequence();
-  return {frames.frames(), sequence.total(), static_cast<std::int64_t>(frames.lost().size()),
-          sequence.framesPerSecond(), QString::fromStdString(sessions::sequenceText(frames))};
+  return {frames.frames(),
+          sequence.total(),
+          static_cast<std::int64_t>(frames.lost().size()),
+          sequence.framesPerSecond(),
+          QString::fromStdString(sessions::sequenceText(frames)),
+          sequence.notes()};
 }
 
 }  // namespace
@@ -37,7 +41,10 @@ void SequenceRunner::start(const sessions::SequenceOrder& order,
     while (const auto result = sequence.next(stop))
       report([this, row = sessions::sequenceRow(*result, centre_m),
               progress = progressOf(sequence)] { take(row, progress); });
-    report([this] { end(); });
+    report([this, progress = progressOf(sequence)] {
+      progress_ = progress;
+      end();
+    });
   };
   runner_.replace(sequence_, work, [this](const QString& message) {
     Q_EMIT failed(message);

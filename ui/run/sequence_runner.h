@@ -19,8 +19,9 @@ struct SequenceProgress {
   std::int64_t done = 0;
   std::int64_t of = 0;  ///< 0: not stated
   std::int64_t lost = 0;
-  double frames_per_s = 0.0;  ///< 0: not known yet
-  QString summary;            ///< "22 of 24 frames accepted, 2 lost: 10, 11"
+  double frames_per_s = 0.0;            ///< 0: not known yet
+  QString summary;                      ///< "22 of 24 frames accepted, 2 lost: 10, 11"
+  std::vector<std::string> notes = {};  ///< on the source of the frames
 };
 
 /// Localizes the frames of a sequence on a separate thread. Each frame is stored before it is

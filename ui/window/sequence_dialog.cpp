@@ -248,12 +248,14 @@ void SequenceDialog::showOutcome() {
     return ui_.sequenceBanner->setMessage(QStringLiteral("✗"), problem_, Banner::Tone::kBad);
   if (!ended) return;
   QString text = tr("%1.").arg(now.summary);
+  for (const std::string& note : now.notes) text += tr(" Note: %1.").arg(fromText(note));
   if (parts_.sequence.isStopped()) text += tr(" Cancelled; Run continues.");
   const bool any = now.lost < now.done;
   if (!any) text += tr(" The first: %1.").arg(fromText(parts_.sequence.rows().front().reason));
-  ui_.sequenceBanner->setMessage(!any            ? QStringLiteral("✗")
-                                 : now.lost == 0 ? QStringLiteral("✓")
-                                                 : QStringLiteral("!"),
+  const bool as_stated = now.lost == 0 && now.notes.empty();
+  ui_.sequenceBanner->setMessage(!any        ? QStringLiteral("✗")
+                                 : as_stated ? QStringLiteral("✓")
+                                             : QStringLiteral("!"),
                                  text, any ? Banner::Tone::kGood : Banner::Tone::kBad);
 }
 
