@@ -14,7 +14,7 @@
 namespace boresight {
 namespace {
 
-Camera camera() { return test::makePinhole(1024, 1024, 1000.0); }
+Camera edgeCamera() { return test::makePinhole(1024, 1024, 1000.0); }
 
 Vector6d perturbation(Random& random, double rotation_rad, double translation_m) {
   Vector6d xi;
@@ -48,8 +48,8 @@ double motion_px(const std::vector<EdgeSample>& samples, const Pose& from, const
   for (const EdgeSample& sample : samples) {
     Eigen::Vector2d before;
     Eigen::Vector2d after;
-    (void)project(camera(), from * sample.point_in_station_m, before);
-    (void)project(camera(), to * sample.point_in_station_m, after);
+    (void)project(edgeCamera(), from * sample.point_in_station_m, before);
+    (void)project(edgeCamera(), to * sample.point_in_station_m, after);
     motions_px.push_back(std::abs((after - before).dot(sample.normal())));
   }
   std::sort(motions_px.begin(), motions_px.end());
@@ -61,19 +61,19 @@ TEST(EdgePlaces, Motion_IsTheQuantileAlongTheNormals) {
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<EdgeSample> few = randomSamples(random, EdgePlaces::kMost);
     const RefinementResult refined = resultOf(few);
-    const EdgePlaces places(refined, camera());
+    const EdgePlaces places(refined, edgeCamera());
     EXPECT_NEAR(*places.motionTo_px(refined.camera_from_station), 0.0, 1e-3);
     const Pose to = perturbed(perturbation(random, 0.05, 0.02), refined.camera_from_station);
     const double expected_px = motion_px(few, refined.camera_from_station, to);
     EXPECT_NEAR(*places.motionTo_px(to), expected_px, 1e-3);
     // Poses in another camera's frame.
     const Pose camera_from_first = perturbed(perturbation(random, 0.2, 0.1), Pose());
-    const EdgePlaces second(refined, camera(), camera_from_first);
+    const EdgePlaces second(refined, edgeCamera(), camera_from_first);
     EXPECT_NEAR(*second.motionTo_px(camera_from_first.inverse() * to), expected_px, 1e-3);
     // A selection of many.
     std::vector<EdgeSample> many = randomSamples(random, 3000);
     const RefinementResult of_many = resultOf(many);
-    EXPECT_NEAR(*EdgePlaces(of_many, camera()).motionTo_px(to),
+    EXPECT_NEAR(*EdgePlaces(of_many, edgeCamera()).motionTo_px(to),
                 motion_px(many, of_many.camera_from_station, to), 0.25 * expected_px);
   }
 }
@@ -85,9 +85,9 @@ TEST(EdgePlaces, FewPlaces_MeasureNothingAndUnseenOnesHaveMovedWithoutBound) {
   RefinementResult refined = resultOf(samples);
   Pose behind = refined.camera_from_station;
   behind.translation_m.z() = -1.0;
-  EXPECT_GT(*EdgePlaces(refined, camera()).motionTo_px(behind), 1e5);
+  EXPECT_GT(*EdgePlaces(refined, edgeCamera()).motionTo_px(behind), 1e5);
   --refined.sample_count;
-  EXPECT_FALSE(EdgePlaces(refined, camera()).motionTo_px(behind));
+  EXPECT_FALSE(EdgePlaces(refined, edgeCamera()).motionTo_px(behind));
 }
 
 }  // namespace

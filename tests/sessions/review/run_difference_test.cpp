@@ -117,7 +117,11 @@ TEST_F(RunDifferenceTest, RunListLines_OfAnotherSeedAndOption_NameBothAndTheDist
   run({{"pnp.min_inliers", std::int64_t{13}}});
   EXPECT_TRUE(compare().inputs_differ);
   EXPECT_THAT(changeText(compare()), HasSubstr("The inputs of the runs differ"));
-  std::vector<RunListLine> lines = runListLines(session_.runs, *loaded);
+  const auto linesOfRuns = [&] {
+    return runListLines(std::vector<RunRecord>(session_.runs.begin(), session_.runs.end()),
+                        *loaded);
+  };
+  std::vector<RunListLine> lines = linesOfRuns();
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].changed, "") << "no run is before it";
   EXPECT_THAT(lines[1].changed, testing::MatchesRegex("inputs, pnp\\.min_inliers .+ -> 13"));
@@ -128,7 +132,7 @@ TEST_F(RunDifferenceTest, RunListLines_OfAnotherSeedAndOption_NameBothAndTheDist
               first.rotation.angularDistance(second.rotation) / kDegree_rad, 1e-9);
   EXPECT_TRUE(lines[1].moved->projection_px);
   std::filesystem::remove(session_.runs[0].file);
-  lines = runListLines(session_.runs, *loaded);
+  lines = linesOfRuns();
   EXPECT_FALSE(lines[1].moved);
   EXPECT_EQ(lines[1].changed, "inputs");
 }
