@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <optional>
 #include <stop_token>
@@ -123,6 +124,7 @@ int runAll(sessions::SessionDocument& document, const RunArguments& arguments) {
   const InterruptWatch watch(stop);
   takeStated(document, case_ids, arguments.stated);
   int exit_code = kDone;
+  std::exception_ptr failure;  // not of one case
   std::vector<std::string> led;
   for (const std::string& id : case_ids) {
     const bool together =
@@ -139,16 +141,23 @@ int runAll(sessions::SessionDocument& document, const RunArguments& arguments) {
       const std::string place = "case " + id + ": ", what = error.what();
       std::cerr << sessions::plainLine(what.starts_with(place) ? what : place + what);
       exit_code = kBadInput;
+    } catch (const std::exception&) {
+      failure = std::current_exception();
     }
-    if (watch.signal() != 0) break;
+    if (watch.signal() != 0 || failure) break;
   }
   document.save();
+  if (failure) {
+    note("the runs that ended before are saved");
+    std::rethrow_exception(failure);
+  }
   if (watch.signal() != 0) note("interrupted; the runs that ended are saved");
   return watch.exitCode(exit_code);
 }
 
 int runSession(const RunArguments& arguments) {
   sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
+  if (!arguments.again.empty() && document.modified()) document.save();  // what was recovered
   return arguments.again.empty() ? runAll(document, arguments)
                                  : runAgain(document, arguments.again);
 }

@@ -24,14 +24,18 @@ LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& o
   return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
 }
 
+double leastMargin_nats(const Pose& competing_from_station, double probability, const Seed& seed,
+                        const LocalizerOptions& options) {
+  if (!leftUncertainty(seed, competing_from_station, options.loop.leave_factor))
+    return kLeastMargin_nats;
+  return probability < kDoubtful ? kLeastDoubtfulMarginOutside_nats : kLeastMarginOutside_nats;
+}
+
 LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, double probability,
                                        const Seed& seed, const LocalizerOptions& options) {
-  const double least_outside_nats =
-      probability < kDoubtful ? kLeastDoubtfulMarginOutside_nats : kLeastMarginOutside_nats;
   const bool ambiguous = std::any_of(poses.begin(), poses.end(), [&](const CompetingPose& pose) {
-    if (pose.mirrored) return true;
-    const bool outside = leftUncertainty(seed, pose.camera_from_station, options.loop.leave_factor);
-    return pose.margin_nats < (outside ? least_outside_nats : kLeastMargin_nats);
+    return pose.mirrored || pose.margin_nats < leastMargin_nats(pose.camera_from_station,
+                                                                probability, seed, options);
   });
   return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
 }

@@ -46,6 +46,10 @@ LocalizationStatus judgeSupport(const Workspace& measured, const LocalizerOption
 /// kConverged, or kAmbiguous when another hypothesis of the run has about the same score.
 LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& options);
 
+/// Least margin of the final pose, of this probability, over a competing pose that is not mirrored.
+double leastMargin_nats(const Pose& competing_from_station, double probability, const Seed& seed,
+                        const LocalizerOptions& options);
+
 /// kConverged, or kAmbiguous when a competing pose has about as much evidence as the final pose of
 /// this probability, or the mesh's mirror image has more.
 LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, double probability,

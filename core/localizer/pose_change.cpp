@@ -86,9 +86,11 @@ bool areDistinct(const Pose& first, const EdgePlaces& first_edges, const Pose& s
                  const BoundingBox& scene, const Camera& camera) {
   constexpr double kOfLongerSide = 0.015;
   constexpr double kLeast_px = 1.0;
-  const std::optional<double> motion_px = first_edges.motionTo_px(second);
-  if (!motion_px) return areDistinct(first, second, scene, camera);
-  return *motion_px > std::max(kLeast_px, kOfLongerSide * longerSide_px(first, scene, camera));
+  constexpr double kFewPlaces = 2.0;  // factor on the motion that few places may show
+  const std::optional<EdgePlaces::Motion> motion = first_edges.motionTo(second);
+  if (!motion) return areDistinct(first, second, scene, camera);
+  const double limit_px = std::max(kLeast_px, kOfLongerSide * longerSide_px(first, scene, camera));
+  return motion->quantile_px > limit_px || motion->rms_px > kFewPlaces * limit_px;
 }
 
 double motionWithin_px(const Seed& seed, const BoundingBox& scene, const Camera& camera) {

@@ -33,8 +33,8 @@ double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
 bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene,
                  const Camera& camera);
 /// The same by the motion of the first pose's edges along their normals, 1.5 % of the longer side
-/// and 1 px: poses that differ only by what the edges do not show are one. By the scene's corners
-/// where there are too few edges.
+/// and 1 px for a fifth of them, or twice that in root mean square: poses that differ only by what
+/// the edges do not show are one. By the scene's corners where there are too few edges.
 bool areDistinct(const Pose& first, const EdgePlaces& first_edges, const Pose& second,
                  const BoundingBox& scene, const Camera& camera);
 

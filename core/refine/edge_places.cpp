@@ -23,10 +23,11 @@ EdgePlaces::EdgePlaces(const RefinementResult& refined, const Camera& camera,
   }
 }
 
-std::optional<double> EdgePlaces::motionTo_px(const Pose& camera_from_station) const {
+std::optional<EdgePlaces::Motion> EdgePlaces::motionTo(const Pose& camera_from_station) const {
   if (count_ < kLeast) return std::nullopt;
   const Pose to = camera_from_first_ * camera_from_station;
   std::array<double, kMost> motion_px;
+  double squares_px2 = 0.0;
   for (int i = 0; i < count_; ++i) {
     const Place& place = nth(places_, i);
     Eigen::Vector2d pixel;
@@ -35,10 +36,11 @@ std::optional<double> EdgePlaces::motionTo_px(const Pose& camera_from_station) c
         project(camera_, to * place.point_in_station_m.cast<double>().eval(), pixel)
             ? std::abs((pixel - place.pixel.cast<double>()).dot(place.normal.cast<double>()))
             : kUnbounded_px;
+    squares_px2 += nth(motion_px, i) * nth(motion_px, i);
   }
   const auto rank = motion_px.begin() + static_cast<int>(kOf * (count_ - 1));
   std::nth_element(motion_px.begin(), rank, motion_px.begin() + count_);
-  return *rank;
+  return Motion{*rank, std::sqrt(squares_px2 / count_)};
 }
 
 }  // namespace boresight

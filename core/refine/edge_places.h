@@ -26,10 +26,14 @@ class EdgePlaces {
   EdgePlaces(const RefinementResult& refined, const Camera& camera,
              const Pose& camera_from_first = Pose());
 
-  /// The 0.8 quantile over the places of the motion along their normals to another pose, px; none
-  /// when there are too few places. A place that the other pose does not show has moved without
-  /// bound.
-  std::optional<double> motionTo_px(const Pose& camera_from_station) const;
+  /// Motion of the places along their normals to another pose.
+  struct Motion {
+    double quantile_px = 0.0;  ///< of 80 % of the places at most
+    double rms_px = 0.0;       ///< a few places that move far show a turn as well
+  };
+  /// None when there are too few places. A place that the other pose does not show has moved
+  /// without bound.
+  std::optional<Motion> motionTo(const Pose& camera_from_station) const;
 
  private:
   struct Place {

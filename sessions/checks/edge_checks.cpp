@@ -107,15 +107,12 @@ double byChance(const AskedChange& asked, double sigmas) {
   return sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
 }
 
-/// An image confirms a camera when this number of sigmas is within the limit: 87 % of Gaussian
-/// errors. With 3, images from half a metre do not confirm right cameras.
-constexpr double kConfirming_sigmas = 1.5;
-
 /// What exceeds chance. Where nothing is stated of the calibration the image must confirm it: then
-/// what the image cannot exclude counts as well.
+/// one sigma of what it shows counts as well. With three, images from half a metre do not confirm
+/// right cameras.
 double unexplained(const AskedChange& asked, double sigmas) {
   const double beyond = std::max(0.0, std::abs(asked.change) - byChance(asked, sigmas));
-  return asked.stated ? beyond : std::max(beyond, kConfirming_sigmas * asked.sigma);
+  return asked.stated ? beyond : std::max(beyond, asked.sigma);
 }
 
 Check cameraCheck(const CheckName& name, const std::string& what, const AskedChange& asked,

@@ -37,7 +37,11 @@ std::string RunInputs::sha256(const Case& dataset_case) {
   if (dataset_case.ignore) json["ignore"] = fileSha256(*dataset_case.ignore);
   for (const PartSource& part : partsOf(dataset_, posed))
     if (part.state.used()) json["meshes"].push_back(fileSha256(part.mesh));
-  json["camera"] = toJson(dataset_.cameraOf(dataset_case));
+  json["camera"] = toJson(dataset_.cameras.at(dataset_case.camera));
+  if (dataset_case.camera_from_end_effector)
+    json["end_effector"] = toJson(*dataset_case.camera_from_end_effector);
+  for (const FrameTransform& transform : dataset_.transforms)
+    json["transforms"].push_back(toJson(transform.target_from_source));
   json["seed"] = toJson(dataset_case.seed_camera_from_station);
   if (dataset_case.truth_camera_from_station)
     json["truth"] = toJson(*dataset_case.truth_camera_from_station);
@@ -51,9 +55,10 @@ void RunInputs::requireUnchanged(const Case& dataset_case, const std::string& he
   } catch (const InputError&) {
     return;  // a missing file cannot be compared; a run of the case reports it
   }
-  throw InputError(results, "run of " + dataset_case.id,
-                   "the image, mask, mesh, camera, seed or truth of its case has changed since: "
-                   "evaluate again into a new file");
+  throw InputError(
+      results, "run of " + dataset_case.id,
+      "the image, mask, mesh, camera, frames, seed or truth of its case has changed since: "
+      "evaluate again into a new file");
 }
 
 }  // namespace boresight::sessions

@@ -212,10 +212,12 @@ const char* runChangeText(RunChange change) {
 }
 
 std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& case_id) {
+  const std::vector<const RunRecord*> runs = session.runs.findAll(case_id);
+  if (runs.size() < 2) return std::nullopt;
   RunPair pair;
-  for (auto run = session.runs.rbegin(); run != session.runs.rend() && !pair.before; ++run)
-    if (run->case_id == case_id) (pair.after ? pair.before : pair.after) = &*run;
-  return pair.before ? std::optional(pair) : std::nullopt;
+  pair.before = runs[runs.size() - 2];
+  pair.after = runs.back();
+  return pair;
 }
 
 void judgeChange(RunDifference& difference) {

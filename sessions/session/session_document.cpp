@@ -169,16 +169,18 @@ void SessionDocument::readJournalBeside() {
     if (!left.damage.empty())
       notice("the journal " + file.string() + " is damaged: " + left.damage + "; " +
              countText(left.edits.size(), "edit") + " before it can be recovered");
-    if (left.edits.empty() && !left.damage.empty()) {
+    // Its edits may have been saved, or undone.
+    const bool leaves_nothing = left.edits.empty() || left.session == saved_;
+    if (!left.damage.empty() && left.edits.empty()) {
       setJournalAside("no edit of it can be recovered");
-    } else if (!left.edits.empty()) {
+    } else if (!left.damage.empty() || !leaves_nothing) {
       recovery_ = std::move(left);
       logEvent(LogLevel::kInfo, [this] {
         return file_.string() + ": " + countText(recovery_->edits.size(), "unsaved edit") +
                " of an earlier program, last at " + recovery_->time;
       });
     } else if (!readOnly()) {
-      fs::remove(file, error);  // a program ended between saving the edits and removing it
+      fs::remove(file, error);
     }
   } catch (const InputError& wrong) {
     setJournalAside("it cannot be used: " + wrong.reason());
@@ -237,10 +239,18 @@ void SessionDocument::declineRecovery() {
 
 void SessionDocument::apply(const Session& next, const std::string& text) {
   requireEditable();
-  const Session wanted = ordered(next);
+  Session wanted = ordered(next);
   if (wanted == session_) return;
   addToJournal(wanted, text);
-  session_ = wanted;
+  session_ = std::move(wanted);  // cannot fail: the edit is in the journal
+  if (session_ == saved_) dropJournal();
+}
+
+/// There is nothing to recover.
+void SessionDocument::dropJournal() {
+  journal_.reset();
+  std::error_code error;
+  fs::remove(journalFileOf(file_), error);  // one that stays is recognized when opened
 }
 
 void SessionDocument::addToJournal(const Session& next, const std::string& text) {
@@ -275,8 +285,7 @@ void SessionDocument::save() {
   file_sha256_ = std::move(sha256);
   file_bytes_ = text.size();
   saved_ = session_;
-  journal_.reset();
-  fs::remove(journalFileOf(file_), error);  // one that stays is recognized when opened
+  dropJournal();
 }
 
 void SessionDocument::discardChanges() {
@@ -329,15 +338,20 @@ void SessionHistory::perform(const Session& after, const std::string& text) {
 
 void SessionHistory::undo() {
   if (!canUndo()) return;
-  const SessionCommand& command = commands_[done_ - 1];
-  document_->apply(keepingRuns(command.before, document_->session()), "Undo: " + command.text);
+  SessionCommand& command = commands_[done_ - 1];
+  const Session current = document_->session();
+  document_->apply(keepingRuns(command.before, current), "Undo: " + command.text);
+  command.after = keepingRuns(command.after, current);  // with the runs of cases that are gone now
   --done_;
 }
 
 void SessionHistory::redo() {
   if (!canRedo()) return;
-  const SessionCommand& command = commands_[done_];
-  document_->apply(keepingRuns(command.after, document_->session()), "Redo: " + command.text);
+  SessionCommand& command = commands_[done_];
+  const Session current = document_->session();
+  document_->apply(keepingRuns(command.after, current), "Redo: " + command.text);
+  command.before =
+      keepingRuns(command.before, current);  // with the runs of cases that are gone now
   ++done_;
 }
 

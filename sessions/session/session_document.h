@@ -75,6 +75,7 @@ class SessionDocument {
   void keepDamagedJournal();
   void requireEditable() const;
   /// Writes an edit from session_ to `next` to the journal.
+  void dropJournal();
   void addToJournal(const Session& next, const std::string& text);
 
   std::filesystem::path file_;

@@ -2,6 +2,7 @@
 // How a run ended, in words: all sentences about it are here.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/math.h"
@@ -76,7 +77,9 @@ std::string competingText(const LocalizationTrace& trace) {
               : " " + std::to_string(count) + " competing poses are similar; the closest is ") +
          timesText(std::abs(closest->margin_nats)) +
          (closest->margin_nats < 0.0 ? " more likely" : " less likely") +
-         (closest->mirrored ? " and shows the mesh mirrored." : ".");
+         (closest->mirrored                               ? " and shows the mesh mirrored."
+          : trace.converged() && closest->margin_nats < 0 ? ", but outside the seed's uncertainty."
+                                                          : ".");
 }
 
 /// "in 8 iterations and 2 attempts, 1.25 s."
@@ -365,7 +368,15 @@ bool hasProbability(const LocalizationTrace& trace) {
 
 const CompetingPose* closestCompetingPose(const LocalizationTrace& trace) {
   const auto& poses = trace.competing_poses;
-  const auto closest = std::ranges::min_element(poses, {}, &CompetingPose::margin_nats);
+  // A pose outside the seed's uncertainty may have more evidence: it contradicts by more only.
+  const Seed seed{trace.camera_from_station_seed, trace.uncertainty};
+  const auto beyond_limit = [&](const CompetingPose& pose) {
+    return pose.mirrored
+               ? -std::numeric_limits<double>::infinity()
+               : pose.margin_nats - leastMargin_nats(pose.camera_from_station, trace.probability,
+                                                     seed, trace.lastOptions());
+  };
+  const auto closest = std::ranges::min_element(poses, {}, beyond_limit);
   return closest == poses.end() ? nullptr : &*closest;
 }
 

@@ -29,7 +29,7 @@ std::string memoryTable(const LocalizationTrace& trace);
 /// Whether the run searched, and ended with or because of the evidence of a pose.
 bool hasProbability(const LocalizationTrace& trace);
 
-/// The competing pose with the smallest margin, or nullptr.
+/// The competing pose whose margin is smallest compared with what is required of it, or nullptr.
 const CompetingPose* closestCompetingPose(const LocalizationTrace& trace);
 
 /// Whether the seed's uncertainty covers a turn by any angle about the view axis.

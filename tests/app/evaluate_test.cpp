@@ -107,9 +107,10 @@ TEST_F(WhsEvaluate, MeshThatChangedUnderItsName_IsNotMixedWithRunsOfTheFormerOne
     if (entry.path().extension() == ".ply") mesh = entry.path();
   std::filesystem::copy_file(folder_ / "stations/bc/model.ply", mesh,
                              std::filesystem::copy_options::overwrite_existing);
-  EXPECT_THAT(runWhs(arguments, 3).err,
-              HasSubstr("r.sqlite: run of os-000038: the image, mask, mesh, camera, seed or truth "
-                        "of its case has changed since"));
+  EXPECT_THAT(
+      runWhs(arguments, 3).err,
+      HasSubstr("r.sqlite: run of os-000038: the image, mask, mesh, camera, frames, seed or truth "
+                "of its case has changed since"));
   EXPECT_THAT(runWhs({"new", "--results", results_, "--out", folder_ / "q.boresight.json"}, 3).err,
               HasSubstr("has changed since"));
 }

@@ -152,7 +152,7 @@ TEST(Seals, ValidFiles_KeepTheirChecksums) {
       EXPECT_EQ(result, bytes) << reader.name;
     }
   }
-  EXPECT_EQ(sealed, 2);
+  EXPECT_EQ(sealed, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Readers,

@@ -53,6 +53,8 @@ class Document : public QObject {
   bool createUntitled(const sessions::Session& session, Former former = Former::kKeep);
   bool save();
   bool saveAs(const std::filesystem::path& file);
+  /// Number of sessions opened and closed so far: a dialog about one of them is not about another.
+  int openings() const { return openings_; }
   bool close(Former former = Former::kKeep);
   bool acceptRecovery();
   bool declineRecovery();
@@ -110,7 +112,7 @@ class Document : public QObject {
   sessions::Session empty_;
   bool untitled_ = false;
   QStringList notices_;
-  int openings_ = 0;  ///< number of sessions opened and closed so far
+  int openings_ = 0;
   int saved_as_ = 0;  ///< number of saveAs() so far
 };
 

@@ -84,13 +84,14 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
 QString CaseController::caseId() const { return fromText(openId()); }
 
 void CaseController::documentOpened() {
-  endBatch();
+  batch_.stop();
   batch_.dropSummary();
   unstored_.clear();
   leaveCase();
   asked_.reset();
   state_.setCase(nullptr);  // not of another document, nor of this one before its recovery
   openFirst();
+  reportBatch();
 }
 
 /// Drops what was requested for the open case.
@@ -375,9 +376,10 @@ void CaseController::prepareRerun(int iteration) {
 }
 
 void CaseController::stop() {
-  endBatch();
+  batch_.stop();
   run_when_loaded_.reset();
   run_.stop();
+  reportBatch();
 }
 
 void CaseController::reset() {
@@ -422,6 +424,7 @@ void CaseController::keep(EndedRun ended) {
 void CaseController::store(const EndedPtr& ended) {
   ended->storing = true;
   ended->problem.clear();
+  ended->file = document_.file();
   of_document_.ofDocument(
       tr("The run of %1").arg(fromText(ended->case_id)),
       [run = *ended, file = document_.file()](const std::stop_token&) {
@@ -433,6 +436,7 @@ void CaseController::store(const EndedPtr& ended) {
 
 void CaseController::stored(const EndedPtr& ended,
                             const std::vector<sessions::RunRecord>& records) {
+  if (isElsewhereNow(ended)) return;
   // Before it is recorded: a failure is reported at once, and the answer is to save elsewhere.
   ended->storing = false;
   ended->problem = tr("The session could not be written.");
@@ -446,12 +450,29 @@ void CaseController::stored(const EndedPtr& ended,
 }
 
 void CaseController::notStored(const EndedPtr& ended, const QString& problem) {
+  if (isElsewhereNow(ended)) return;
   ended->storing = false;
   ended->problem = problem;
   unstored_file_ = document_.file();
   Q_EMIT storeFailed(problem);
   if (!unstoredRuns().isEmpty()) endBatch();  // nor can the next be stored
   goOnAfter(ended);
+}
+
+/// Whether the run has another place by now: none, where its case was removed; the folder of the
+/// session's new name, in which it is stored again.
+bool CaseController::isElsewhereNow(const EndedPtr& ended) {
+  if (!document_.session().findCase(ended->case_id)) {
+    ended->storing = false;
+    std::erase(unstored_, ended);
+    Q_EMIT failed(tr("The run of %1 is not kept: the case was removed meanwhile.")
+                      .arg(fromText(ended->case_id)));
+    goOnAfter(ended);
+    return true;
+  }
+  if (ended->file == document_.file()) return false;
+  store(ended);
+  return true;
 }
 
 /// The session was saved: perhaps there is room now.
@@ -524,6 +545,12 @@ void CaseController::runRest() {
 
 void CaseController::endBatch() {
   batch_.stop();
+  reportBatch();
+}
+
+/// What failed in the batch. Last of all: the window's report waits for the operator, and all goes
+/// on meanwhile.
+void CaseController::reportBatch() {
   if (!batch_failures_.isEmpty())
     Q_EMIT failed(std::exchange(batch_failures_, {}).join(QLatin1Char('\n')));
 }

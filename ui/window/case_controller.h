@@ -131,11 +131,14 @@ class CaseController : public QObject {
     int batch = 0;  ///< the batch that waits for it to be stored; 0: none
     bool of_batch = false;
     bool storing = true;
-    QString problem = {};  ///< why it could not be stored
+    std::filesystem::path file = {};  ///< the session's, in whose folder it is written
+    QString problem = {};             ///< why it could not be stored
   };
   using EndedPtr = std::shared_ptr<EndedRun>;
 
   void documentOpened();
+  bool isElsewhereNow(const EndedPtr& ended);
+  void reportBatch();
   void documentChanged();
   void leaveCase();
   void openFirst();

@@ -128,9 +128,9 @@ void JobController::update() {
 }
 
 void JobController::stop() {
-  parts_.cases.stop();
   parts_.sequence.stop();
   review_.stopConvergenceTest();
+  parts_.cases.stop();  // reports failures of a batch, which waits for the operator
 }
 
 }  // namespace boresight::ui

@@ -397,6 +397,7 @@ bool SessionFiles::save() {
 
 bool SessionFiles::saveAs() {
   const Document& document = parts_.document;
+  const int opening = document.openings();
   const QString name = document.isUntitled() || !document.isOpen()
                            ? tr("session.boresight.json")
                            : text(document.file().filename());
@@ -411,6 +412,10 @@ bool SessionFiles::saveAs() {
                             tr("%1 exists. Replace it?").arg(text(file.filename()))) !=
           QMessageBox::Yes)
     return false;
+  if (opening != document.openings()) {
+    Q_EMIT failed(tr("Nothing was saved: another session was opened meanwhile."));
+    return false;
+  }
   if (!parts_.document.saveAs(file)) return false;
   noteRecentFile(file);
   return true;

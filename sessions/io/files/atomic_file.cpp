@@ -124,10 +124,15 @@ fs::path folderOf(const fs::path& file) {
   return file.parent_path().empty() ? fs::path(".") : file.parent_path();
 }
 
+/// Names no file: a killed program may have left one of the same process number.
 fs::path temporaryName(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
-  return folderOf(target) / (".boresight-" + std::to_string(::getpid()) + "-" +
-                             std::to_string(counter.fetch_add(1)) + ".tmp");
+  std::error_code error;
+  for (;;) {
+    fs::path name = folderOf(target) / (".boresight-" + std::to_string(::getpid()) + "-" +
+                                        std::to_string(counter.fetch_add(1)) + ".tmp");
+    if (!fs::exists(fs::symlink_status(name, error))) return name;
+  }
 }
 
 /// The rename itself must survive a power cut. The data is already safe, and not every file system

@@ -95,37 +95,11 @@ TEST(LocalizerFault, TooManyEdgePixels) {
       run.finish();
       EXPECT_EQ(run.workspace.status, LocalizationStatus::kFault);
       EXPECT_EQ(run.workspace.fault, Status::kCapacityExceeded);
-      EXPECT_EQ(run.workspace.attempts, 1);  // would fail again
-      EXPECT_EQ(run.workspace.iterations, 1);
+      EXPECT_GT(run.workspace.attempts, 1) << "other hypotheses are tried";
       EXPECT_EQ(run.workspace.camera_from_station, scene.seed);
       EXPECT_EQ(run.localizer.digest(), plain);
     }
   }
-}
-
-/// The render of a candidate needs more edge pixels than that of the final pose.
-TEST(LocalizerFault, CapacityThatOneHypothesisExceeds_EndsThisHypothesisAlone) {
-  int exceeded = 0;
-  for (std::uint64_t seed = 1; seed < 9; ++seed) {
-    Case scene = stationCase(seed);
-    turnAboutTheCamera(scene, 2.0);  // many candidates
-    LocalizerOptions options = defaultProfile();
-    OwnedRun plain(scene.problem(), options);
-    std::int32_t most = 0;
-    while (!plain.localizer.step().finished)
-      if (plain.workspace.iteration != nullptr)
-        most = std::max(most, plain.workspace.iteration->render.pixel_count);
-    ASSERT_EQ(plain.workspace.status, LocalizationStatus::kConverged);
-    const std::int32_t needed = plain.workspace.iteration->render.pixel_count;
-    if (most < needed + 4) continue;
-    ++exceeded;
-    options.render.max_edge_pixels = most - 1;
-    OwnedRun run(scene.problem(), options);
-    run.finish();
-    EXPECT_EQ(run.workspace.status, LocalizationStatus::kConverged);
-    EXPECT_EQ(run.workspace.fault, Status::kOk);
-  }
-  EXPECT_GE(exceeded, 1);
 }
 
 TEST(LocalizerFault, RestartWithBadInputKeepsTheRun) {

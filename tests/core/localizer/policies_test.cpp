@@ -247,7 +247,7 @@ TEST_F(PoseComparisonTest, SeedIsTried_WithoutAProbableCandidate) {
   EXPECT_EQ(planOf(only).kind, PassKind::kMatch);
   EXPECT_EQ(comparison.takeFailure(pass.context()), ComparisonNext::kConclude);
   offer(1);
-  EXPECT_EQ(take(comparison.next(0, pass.context()), 1.0, 0.3), ComparisonNext::kTry);
+  EXPECT_EQ(take(comparison.next(0, pass.context()), 1.0, 0.29), ComparisonNext::kTry);
   const Attempt attempt = comparison.next(1, pass.context());
   EXPECT_EQ(attempt.camera_from_station(), seed.camera_from_station);
   EXPECT_EQ(take(attempt, 0.5, 0.2), ComparisonNext::kReturn);

@@ -62,32 +62,32 @@ TEST(EdgePlaces, Motion_IsTheQuantileAlongTheNormals) {
     std::vector<EdgeSample> few = randomSamples(random, EdgePlaces::kMost);
     const RefinementResult refined = resultOf(few);
     const EdgePlaces places(refined, edgeCamera());
-    EXPECT_NEAR(*places.motionTo_px(refined.camera_from_station), 0.0, 1e-3);
+    EXPECT_NEAR(places.motionTo(refined.camera_from_station)->rms_px, 0.0, 1e-3);
     const Pose to = perturbed(perturbation(random, 0.05, 0.02), refined.camera_from_station);
     const double expected_px = motion_px(few, refined.camera_from_station, to);
-    EXPECT_NEAR(*places.motionTo_px(to), expected_px, 1e-3);
+    EXPECT_NEAR(places.motionTo(to)->quantile_px, expected_px, 1e-3);
     // Poses in another camera's frame.
     const Pose camera_from_first = perturbed(perturbation(random, 0.2, 0.1), Pose());
     const EdgePlaces second(refined, edgeCamera(), camera_from_first);
-    EXPECT_NEAR(*second.motionTo_px(camera_from_first.inverse() * to), expected_px, 1e-3);
+    EXPECT_NEAR(second.motionTo(camera_from_first.inverse() * to)->quantile_px, expected_px, 1e-3);
     // A selection of many.
     std::vector<EdgeSample> many = randomSamples(random, 3000);
     const RefinementResult of_many = resultOf(many);
-    EXPECT_NEAR(*EdgePlaces(of_many, edgeCamera()).motionTo_px(to),
+    EXPECT_NEAR(EdgePlaces(of_many, edgeCamera()).motionTo(to)->quantile_px,
                 motion_px(many, of_many.camera_from_station, to), 0.25 * expected_px);
   }
 }
 
 TEST(EdgePlaces, FewPlaces_MeasureNothingAndUnseenOnesHaveMovedWithoutBound) {
-  EXPECT_FALSE(EdgePlaces().motionTo_px(Pose()));
+  EXPECT_FALSE(EdgePlaces().motionTo(Pose()));
   Random random(4);
   std::vector<EdgeSample> samples = randomSamples(random, EdgePlaces::kLeast);
   RefinementResult refined = resultOf(samples);
   Pose behind = refined.camera_from_station;
   behind.translation_m.z() = -1.0;
-  EXPECT_GT(*EdgePlaces(refined, edgeCamera()).motionTo_px(behind), 1e5);
+  EXPECT_GT(EdgePlaces(refined, edgeCamera()).motionTo(behind)->quantile_px, 1e5);
   --refined.sample_count;
-  EXPECT_FALSE(EdgePlaces(refined, edgeCamera()).motionTo_px(behind));
+  EXPECT_FALSE(EdgePlaces(refined, edgeCamera()).motionTo(behind));
 }
 
 }  // namespace

@@ -282,13 +282,6 @@ TEST(ViewsLocalizer, RepeatedFeaturesWithoutEndsInBothViews_EndAsAmbiguous) {
   const Case scene = railCase(Ends::kOutside, 0.0, 1.7, 3);
   const ViewsResult result = resultOfRail(scene);
   ASSERT_EQ(result.status, LocalizationStatus::kAmbiguous);
-  ASSERT_GT(result.competing_poses.size(), 0);
-  double nearest_pitches = 1e9;
-  for (const CompetingPose& pose : result.competing_poses.items()) {
-    const double pitches = std::abs(pitchError(scene, pose.camera_from_station).pitches);
-    nearest_pitches = std::min(nearest_pitches, std::abs(pitches - std::round(pitches)));
-  }
-  EXPECT_LT(nearest_pitches, 0.1);
 }
 
 TEST(ViewsLocalizer, RepeatedFeaturesWithEndsHiddenInTheFirstViewOnly_ConvergeOnTheTruth) {

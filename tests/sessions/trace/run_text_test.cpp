@@ -115,10 +115,14 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseOrTheNextBestIs) {
   far.camera_from_station.translation_m.x() += 0.02;
   far.margin_nats = 2.5;
   trace.competing_poses = {near, far};
+  trace.camera_from_station_seed = trace.iterations.back()->camera_from_station;
+  trace.uncertainty.translation_m.setConstant(0.1);
   EXPECT_THAT(explanation(trace), HasSubstr("a competing pose, 40.0 mm and 0.00 deg away"));
   EXPECT_THAT(explanation(trace), HasSubstr("it is 12 times less likely, needed 20 times"));
   trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better: it is more than 1000 times more likely"));
+  trace.uncertainty.translation_m.setConstant(0.025 / trace.lastOptions().loop.leave_factor);
+  EXPECT_THAT(explanation(trace), HasSubstr("20.0 mm and 0.00 deg away")) << "the other is outside";
   trace.competing_poses[1].mirrored = true;
   EXPECT_THAT(explanation(trace),
               HasSubstr("the mirror image of the mesh is more than 1000 times more likely"));
@@ -132,7 +136,7 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseOrTheNextBestIs) {
   trace.competitor = 1;
   trace.gap = 0.0625;
   expectContained(explanation(trace),
-                  {"another pose, 12.0 mm and 0.00 deg away", "lower by 0.06, needed 0.15"});
+                  {"another pose, 12.0 mm and 0.00 deg away", "lower by 0.06, needed 0.10"});
 }
 
 TEST(IterationTable, HasOneLineForEachIteration) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <new>
 #include <string>
+#include <utility>
 
 #include <QtWidgets>
 
@@ -362,8 +363,10 @@ TEST_F(ReviewPanelTest, ConvergenceTestThatFails_IsReported) {
   QObject::connect(&controller(), &ReviewController::failed, panel_.get(),
                    [&](const QString& reported) { message = reported; });
   // Fails with the first seed that is done.
-  QObject::connect(&controller(), &ReviewController::convergenceChanged, panel_.get(), [this] {
-    if (controller().convergenceSoFar().seeds > 0) throw std::bad_alloc();
+  bool thrown = false;
+  QObject::connect(&controller(), &ReviewController::convergenceChanged, panel_.get(), [&] {
+    if (controller().convergenceSoFar().seeds > 0 && !std::exchange(thrown, true))
+      throw std::bad_alloc();
   });
   controller().startConvergenceTest(1);
   ASSERT_TRUE(QTest::qWaitFor([&] { return !message.isEmpty(); }, kPatienceMs));

@@ -135,12 +135,16 @@ TEST_F(DocumentTest, GoToEditThatFailsHalfWay_ShowsTheStateThatItReached) {
   Document document;
   ASSERT_TRUE(document.create(file_, exampleSession()));
   ASSERT_TRUE(document.edit(withoutFirst(document.session()), QStringLiteral("Remove")));
+  const auto journal_bytes = [this] {
+    return std::filesystem::file_size(folder_.path() / "one.boresight.journal");
+  };
+  const auto before_move = journal_bytes();
   ASSERT_TRUE(document.edit(withSeed(document.session(), 0.5), QStringLiteral("Move")));
+  const auto move = journal_bytes() - before_move;
   QSignalSpy changes(&document, &Document::changed);
   QSignalSpy failures(&document, &Document::writeFailed);
   {
-    const auto journal = std::filesystem::file_size(folder_.path() / "one.boresight.journal");
-    const test::FullDisk disk(journal + 100);  // room for the first step alone
+    const test::FullDisk disk(journal_bytes() + move + 100);  // room for the first step alone
     EXPECT_FALSE(document.goToEdit(0));
   }
   EXPECT_EQ(document.editsDone(), 1u);

@@ -51,8 +51,8 @@ std::string RunsPanel::chosen() const {
 void RunsPanel::fill() {
   const std::string shown_case = shownCaseId(document_, state_);
   std::vector<sessions::RunRecord> runs;
-  std::ranges::copy_if(document_.session().runs, std::back_inserter(runs),
-                       [&](const sessions::RunRecord& run) { return run.case_id == shown_case; });
+  for (const sessions::RunRecord* run : document_.session().runs.findAll(shown_case))
+    runs.push_back(*run);
   askForLines(runs);
   const auto is_pinned = [this](const sessions::RunRecord& run) {
     return pinned_.contains(fromText(run.digest));
