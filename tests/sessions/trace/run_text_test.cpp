@@ -122,7 +122,10 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseOrTheNextBestIs) {
   trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better: it is more than 1000 times more likely"));
   trace.uncertainty.translation_m.setConstant(0.025 / trace.lastOptions().loop.leave_factor);
+  trace.probability = 0.9;
+  trace.competing_poses[1].margin_nats = -5.0;
   EXPECT_THAT(explanation(trace), HasSubstr("20.0 mm and 0.00 deg away")) << "the other is outside";
+  trace.competing_poses[1].margin_nats = -7.5;
   trace.competing_poses[1].mirrored = true;
   EXPECT_THAT(explanation(trace),
               HasSubstr("the mirror image of the mesh is more than 1000 times more likely"));

@@ -158,8 +158,10 @@ TEST_F(MaskEditingTest, ChosenStroke_StaysTheSameStroke) {
   EXPECT_EQ(list.currentRow(), -1);
   find<QListWidget>("strokes").setCurrentRow(0);
   window_.cases().chooseCase(QStringLiteral("second"));
-  ASSERT_TRUE(
-      wait([&] { return window_.state().currentCase()->source.id == "second" && resting(); }));
+  ASSERT_TRUE(wait([&] {
+    const auto& shown = window_.state().currentCase();
+    return shown && shown->source.id == "second" && resting();
+  }));
   EXPECT_EQ(list.currentRow(), -1);
 }
 
