@@ -117,10 +117,8 @@ struct CameraFit {
 
 /// Least squares over the distances along the normals with Tukey's weights, linear about the pose.
 /// The sigmas account for common errors of edges (a bevel, a shadow): square tiles of the image
-/// count as one observation each (jackknife by groups, Bell and McCaffrey 2002). Errors that the
-/// edges of a whole image share, as by light from one side, are not in them: right cameras of
-/// rendered stations are up to 6 sigma off (`resources/evidence/trust.md`). Empty with fewer than
-/// 60 edges found, or when these do not determine all nine unknowns.
+/// count as one observation each (cluster-robust covariance, Liang and Zeger 1986). Empty with
+/// fewer than 60 edges found, or when these do not determine all nine unknowns.
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
                                    const Pose& camera_from_station);
 

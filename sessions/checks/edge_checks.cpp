@@ -108,11 +108,10 @@ double byChance(const AskedChange& asked, double sigmas) {
 }
 
 /// What exceeds chance. Where nothing is stated of the calibration the image must confirm it: then
-/// one sigma of what it shows counts as well. With three, images from half a metre do not confirm
-/// right cameras.
+/// what the image cannot exclude counts as well.
 double unexplained(const AskedChange& asked, double sigmas) {
   const double beyond = std::max(0.0, std::abs(asked.change) - byChance(asked, sigmas));
-  return asked.stated ? beyond : std::max(beyond, asked.sigma);
+  return asked.stated ? beyond : std::max(beyond, sigmas * asked.sigma);
 }
 
 Check cameraCheck(const CheckName& name, const std::string& what, const AskedChange& asked,
@@ -164,10 +163,10 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 constexpr std::size_t kLeastFound = 60;
 constexpr int kRounds = 10;
 /// First the usual constant, so that what a wrong camera leaves does not count as outlying; then a
-/// tighter one: shadows and bevels next to an edge are many and off to one side. Of rendered
-/// stations it separates right cameras best from those that are 3 % off.
+/// tighter one: shadows and bevels next to an edge are many and off to one side, and precision is
+/// to spare.
 constexpr double kWideTukey = 4.685;
-constexpr double kTightTukey = 2.5;
+constexpr double kTightTukey = 2.0;
 /// Farther ones are mostly another edge.
 constexpr double kFarthest_px = 2.5;
 constexpr double kDeviationOfMedian = 1.4826;
@@ -208,12 +207,6 @@ double tukeyWeight(double residual_px, double cut_px) {
   return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
 }
 
-/// Derivative of Tukey's influence, weight times residual: below 0 for residuals far out.
-double tukeySlope(double residual_px, double cut_px) {
-  const double u = residual_px / cut_px;
-  return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - 5.0 * u * u) : 0.0;
-}
-
 double scaleOf(const std::vector<Row>& rows, const Vector9d& solution) {
   std::vector<double> sizes;
   for (const Row& row : rows) sizes.push_back(std::abs(row.residual_px - row.by.dot(solution)));
@@ -222,22 +215,9 @@ double scaleOf(const std::vector<Row>& rows, const Vector9d& solution) {
 
 struct Solved {
   Vector9d solution = Vector9d::Zero();
-  Matrix9d inverse = Matrix9d::Zero();  ///< of the weighted equations
-  double cut_px = 0.0;                  ///< beyond, a residual weighs nothing
-
-  double residual_px(const Row& row) const { return row.residual_px - row.by.dot(solution); }
+  Matrix9d inverse = Matrix9d::Zero();
+  double cut_px = 0.0;  ///< beyond, a residual weighs nothing
 };
-
-/// Empty where the matrix is not positive definite.
-std::optional<Matrix9d> inverseOf(const Matrix9d& information) {
-  if (!(information.diagonal().minCoeff() > 0.0)) return {};
-  const Vector9d inverse_scale = information.diagonal().cwiseSqrt().cwiseInverse();
-  const Matrix9d balanced = inverse_scale.asDiagonal() * information * inverse_scale.asDiagonal();
-  const Eigen::LDLT<Matrix9d> factors(balanced);
-  if (!(factors.vectorD().minCoeff() > kLeastPivot)) return {};
-  return inverse_scale.asDiagonal() * factors.solve(Matrix9d(Matrix9d::Identity())) *
-         inverse_scale.asDiagonal();
-}
 
 std::optional<Solved> solveRobustly(const std::vector<Row>& rows) {
   Solved solved;
@@ -247,45 +227,34 @@ std::optional<Solved> solveRobustly(const std::vector<Row>& rows) {
     Matrix9d information = Matrix9d::Zero();
     Vector9d right = Vector9d::Zero();
     for (const Row& row : rows) {
-      const double weight = tukeyWeight(solved.residual_px(row), solved.cut_px);
+      const double weight =
+          tukeyWeight(row.residual_px - row.by.dot(solved.solution), solved.cut_px);
       information += weight * row.by * row.by.transpose();
       right += weight * row.residual_px * row.by;
     }
-    const std::optional<Matrix9d> inverse = inverseOf(information);
-    if (!inverse) return {};
-    solved.inverse = *inverse;
+    const Vector9d scale = information.diagonal().cwiseSqrt();
+    if (!(scale.minCoeff() > 0.0)) return {};
+    const Vector9d inverse_scale = scale.cwiseInverse();
+    const Matrix9d balanced = inverse_scale.asDiagonal() * information * inverse_scale.asDiagonal();
+    const Eigen::LDLT<Matrix9d> factors(balanced);
+    if (!(factors.vectorD().minCoeff() > kLeastPivot)) return {};
+    solved.inverse = inverse_scale.asDiagonal() * factors.solve(Matrix9d(Matrix9d::Identity())) *
+                     inverse_scale.asDiagonal();
     solved.solution = solved.inverse * right;
   }
   return solved;
 }
 
-/// Of an M-estimate: how far it moves without a tile, summed over the tiles (jackknife by groups;
-/// Bell and McCaffrey 2002, CR3). The equations sum the slopes of the influence: with its weights
-/// in their place, sigmas of Gaussian errors are 1.8 times too small. Where the slopes leave a
-/// direction open the weights serve: sigmas are large then, and rather too small.
 Matrix9d clusteredCovariance(const std::vector<Row>& rows, const Solved& solved) {
-  struct Tile {
-    Vector9d score = Vector9d::Zero();
-    Matrix9d bend = Matrix9d::Zero();
-  };
-  std::map<std::pair<int, int>, Tile> tiles;
-  Matrix9d bend = Matrix9d::Zero();
+  std::map<std::pair<int, int>, Vector9d> scores;
   for (const Row& row : rows) {
-    const double residual_px = solved.residual_px(row);
-    const Matrix9d of_row = tukeySlope(residual_px, solved.cut_px) * row.by * row.by.transpose();
-    Tile& tile = tiles[row.tile];
-    tile.score += tukeyWeight(residual_px, solved.cut_px) * residual_px * row.by;
-    tile.bend += of_row;
-    bend += of_row;
+    const double residual_px = row.residual_px - row.by.dot(solved.solution);
+    const auto place = scores.try_emplace(row.tile, Vector9d::Zero()).first;
+    place->second += tukeyWeight(residual_px, solved.cut_px) * residual_px * row.by;
   }
-  const Matrix9d of_all = inverseOf(bend).value_or(solved.inverse);
-  Matrix9d covariance = Matrix9d::Zero();
-  for (const auto& [place, tile] : tiles) {
-    const Vector9d moved = inverseOf(bend - tile.bend).value_or(of_all) * tile.score;
-    covariance += moved * moved.transpose();
-  }
-  const double count = static_cast<double>(tiles.size());
-  return covariance * ((count - 1.0) / count);
+  Matrix9d middle = Matrix9d::Zero();
+  for (const auto& [tile, score] : scores) middle += score * score.transpose();
+  return solved.inverse * middle * solved.inverse;
 }
 
 }  // namespace

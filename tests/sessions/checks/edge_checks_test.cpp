@@ -2,12 +2,8 @@
 // Edges of a box that OpenCV drew, asked at the pose that it was drawn from and at others.
 #include "sessions/checks/checks.h"
 
-#include <array>
 #include <functional>
-#include <map>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -16,8 +12,6 @@
 #include "sessions/checks/pose_uncertainty.h"
 #include "tests/sessions/checks/drawn_box.h"
 #include "tests/sessions/checks/find_check.h"
-#include "tests/support/coverage.h"
-#include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
 namespace {
@@ -207,35 +201,6 @@ TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   EXPECT_LT(fit->focal_px, -10.0);
   EXPECT_GT(fit->focal_px, -36.0);
   EXPECT_LT(fit->focal_sigma_px, 5.0);
-}
-
-/// Of edges found with Gaussian errors that the edges of a small tile share in part.
-TEST_F(EdgeChecks, SigmasOfTheCamera_HoldTheErrors) {
-  Random random = test::randomFor("EdgeChecks.Sigmas");
-  const PredictedEdges edges = box.edges();
-  std::vector<LookedPlace> looked;
-  for (const EdgePlace& place : thinned(edges.places, 600)) looked.push_back({place, FoundEdge()});
-  std::vector<double> focal_errors, centre_errors;
-  for (int draw = 0; draw < 1000; ++draw) {
-    std::map<std::pair<int, int>, double> shared_px;
-    for (LookedPlace& one : looked) {
-      const Eigen::Vector2i tile = (one.place.pixel / 8.0).cast<int>();
-      const auto [at, added] = shared_px.try_emplace({tile.x(), tile.y()}, 0.0);
-      if (added) at->second = 0.1 * random.normal();
-      one.found->offset_px = at->second + 0.3 * random.normal();
-    }
-    const auto fit = fitCamera(looked, box.camera_, box.camera_from_station_);
-    ASSERT_TRUE(fit);
-    focal_errors.push_back(fit->focal_px / fit->focal_sigma_px);
-    centre_errors.push_back(fit->centre_px / fit->centre_sigma_px);
-  }
-  // A jackknife is rather too large.
-  test::expectGaussianCoverage(focal_errors, true);
-  EXPECT_LT(test::shareWithinSigmas(focal_errors)[0], 0.8);
-  // Along the direction of the error itself: 98.9 % of two Gaussian components, and 86 %.
-  const std::array<double, 3> share = test::shareWithinSigmas(centre_errors);
-  EXPECT_GT(share[1], 0.82);
-  EXPECT_GT(share[2], 0.976);
 }
 
 TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
