@@ -4,7 +4,7 @@
 boresight_packages=(
   build-essential cmake ninja-build ccache
   libeigen3-dev libopencv-dev libassimp-dev libgdal-dev nlohmann-json3-dev libsqlite3-dev libceres-dev libcli11-dev
-  libspdlog-dev libminizip-dev zlib1g-dev pkg-config libcairo2-dev libpango1.0-dev fonts-dejavu-core
+  libspdlog-dev libavutil-dev libminizip-dev zlib1g-dev pkg-config libcairo2-dev libpango1.0-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev
   qtbase5-dev libvtk9-dev libvtk9-qt-dev libqwt-qt5-dev xvfb xauth libgl1-mesa-dri
   help2man pybind11-dev python3-dev python3-numpy
