@@ -102,6 +102,24 @@ class ObjLine {
   std::int64_t number_;
 };
 
+void append(std::vector<std::uint8_t>& plain, std::string_view text) {
+  plain.insert(plain.end(), text.begin(), text.end());
+}
+
+/// The three coordinates of a vertex alone: the importer divides by a weight behind them, takes
+/// colours for one, and does not count a number that begins with its point.
+void appendVertex(std::vector<std::uint8_t>& plain, std::string_view coordinates) {
+  append(plain, "v");
+  for (int axis = 0; axis < 3; ++axis) {
+    std::string_view text = takeWord(coordinates);
+    append(plain, " ");
+    if (text.starts_with('-')) append(plain, "-");
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    if (text.starts_with('.')) append(plain, "0");
+    append(plain, text);
+  }
+}
+
 }  // namespace
 
 MeshDeclaration checkObj(const std::filesystem::path& file, std::string_view text) {
@@ -136,8 +154,12 @@ std::vector<std::uint8_t> plainObj(std::string_view text) {
   std::vector<std::uint8_t> plain;
   plain.reserve(text.size() + 1);
   forEachLine(text, [&plain](std::string_view line, std::int64_t) {
-    for (const char letter : line)
-      plain.push_back(static_cast<std::uint8_t>(letter == '\\' ? '/' : letter));
+    std::string_view rest = line;
+    if (takeWord(rest) == "v")
+      appendVertex(plain, rest);
+    else
+      for (const char letter : line)
+        plain.push_back(static_cast<std::uint8_t>(letter == '\\' ? '/' : letter));
     plain.push_back('\n');
   });
   return plain;

@@ -710,5 +710,24 @@ TEST_F(ReadMesh, RefusesHugeDeclarationsBeforeReading) {
             "mesh.ply: faces: 1000001 exceed the limit of 1000000: decimate the mesh");
 }
 
+/// A lost vertex would shift the indices of all later ones.
+TEST_F(ReadMesh, ObjVertices_AreTheirThreeCoordinatesHoweverTheyAreWritten) {
+  const auto extent_m = [&](const std::string& vertices) {
+    const auto file = folder_.write("mesh.obj", vertices + "f 1 3 4\nf 1 3 5\n");
+    const Mesh mesh = readMesh(file, "m");
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& vertex : mesh.vertices_m) box.extend(vertex);
+    return box.sizes().maxCoeff();
+  };
+  const std::string plain = "v 0 0 0\nv 0.1 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nv 9 9 9\n";
+  EXPECT_FLOAT_EQ(extent_m(plain), 0.1F);
+  for (const char* second : {"v .1 0 0", "v +.1 -.0 0", "v 0.1 0 0 0.5", "v 0.1 0 0 .5 .2 1",
+                             "v 0.1 0 0 1 1", "v 0.1 0 0 1 0 0 1"}) {
+    std::string written = plain;
+    written.replace(written.find("v 0.1 0 0"), 9, second);
+    EXPECT_FLOAT_EQ(extent_m(written), 0.1F) << second;
+  }
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -93,7 +93,7 @@ TEST_F(ConfigurationPanelTest, AValueOutOfRangeIsRefusedWithItsRange) {
 
 TEST_F(ConfigurationPanelTest, EditThatTheSessionRefuses_DoesNotStayInThePanel) {
   type<QSpinBox>(QStringLiteral("loop.max_iterations"), QStringLiteral("12"));
-  EXPECT_EQ(edits_, 1) << "nobody has taken it";
+  EXPECT_EQ(edits_, 1) << "it is not taken yet";
   EXPECT_EQ(panel_.options().loop.max_iterations, LoopOptions().max_iterations);
   EXPECT_EQ(find(QStringLiteral("loop.max_iterations")).data().toInt(),
             LoopOptions().max_iterations);
