@@ -59,43 +59,49 @@ fs::path asideName(const fs::path& journal) {
   }
 }
 
-/// Traces are immutable: a copy that is there already is right.
-void copyRuns(Session& session, const fs::path& to_session) {
+/// Where a session has the trace of a run: in its own folder, or where the run names it.
+fs::path traceOf(const RunRecord& run, const fs::path& session_file) {
   std::error_code error;
-  if (!session.runs.empty()) fs::create_directories(runsFolderOf(to_session), error);
-  if (error) throw OutputError(runsFolderOf(to_session), error.message());
-  for (RunRecord& run : session.runs) {
-    const fs::path copy = runFileOf(to_session, run.digest);
-    if (!fs::exists(run.file, error)) continue;  // is reported by checkInputs
-    if (!fs::exists(copy, error))
-      writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX, FileUse::kRun), FileUse::kRun);
-    run.file = copy;
-  }
+  const fs::path own = runFileOf(session_file, run.digest);
+  return fs::exists(own, error) ? own : run.file;
 }
 
-/// The session after an undo or redo to `target`. Runs and view state are not edits: they are kept
-/// from `current`, except for cases that only `target` has (its runs are used) or lacks (no runs).
-Session keepingRuns(const Session& target, const Session& current) {
+/// Traces are immutable: a copy that is there already is right. A missing one is reported by
+/// checkInputs.
+void copyTrace(const RunRecord& run, const fs::path& to_session) {
+  std::error_code error;
+  const fs::path copy = runFileOf(to_session, run.digest);
+  if (fs::exists(copy, error) || !fs::exists(run.file, error)) return;
+  fs::create_directories(copy.parent_path(), error);
+  if (error) throw OutputError(copy.parent_path(), error.message());
+  writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX, FileUse::kRun), FileUse::kRun);
+}
+
+/// Ids of the cases that `session` has and `other` lacks.
+std::set<std::string> casesMissingIn(const Session& other, const Session& session) {
+  std::set<std::string> ids;
+  const auto add = [&](std::size_t /*i*/, const SharedValue<SessionCase>& session_case) {
+    if (other.findCase(session_case->id) == nullptr) ids.insert(session_case->id);
+  };
+  decltype(session.cases)::forEachDifference(
+      other.cases, session.cases, add, [](std::size_t /*i*/) {}, add);
+  return ids;
+}
+
+/// The session in `file` after an undo or redo to `target`. Runs and view state are not edits: they
+/// are kept from `current`, except for cases that only `target` has (its runs are used) or lacks
+/// (no runs).
+Session keepingRuns(const Session& target, const Session& current, const fs::path& file) {
   Session kept = target;
   kept.runs = current.runs;
-  std::set<std::string> appeared;
-  const auto vanishes = [&](std::size_t i) {
-    const std::string& id = current.cases[i]->id;
-    if (target.findCase(id) == nullptr)
-      kept.runs.eraseIf(id, [](const RunRecord& /*run*/) { return true; });
-  };
-  const auto appears = [&](std::size_t /*i*/, const SharedValue<SessionCase>& session_case) {
-    if (current.findCase(session_case->id) == nullptr) appeared.insert(session_case->id);
-  };
-  decltype(kept.cases)::forEachDifference(
-      current.cases, target.cases,
-      [&](std::size_t i, const SharedValue<SessionCase>& session_case) {
-        vanishes(i);
-        appears(i, session_case);
-      },
-      vanishes, appears);
-  for (const std::string& id : appeared)
-    for (const RunRecord* run : target.runs.findAll(id)) kept.runs.push_back(*run);
+  for (const std::string& id : casesMissingIn(target, current))
+    kept.runs.eraseIf(id, [](const RunRecord& /*run*/) { return true; });
+  for (const std::string& id : casesMissingIn(current, target))
+    for (const RunRecord* run : target.runs.findAll(id)) {
+      RunRecord restored = *run;
+      restored.file = traceOf(*run, file);  // it was saved under another name since
+      kept.runs.push_back(std::move(restored));
+    }
   kept.view = current.view;
   if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
   return kept;
@@ -305,7 +311,7 @@ void SessionDocument::readAgain() {
   session_ = saved_ = std::move(saved.session);
 }
 
-void SessionDocument::saveAs(const fs::path& file) {
+void SessionDocument::saveAs(const fs::path& file, std::span<const RunRecord> restorable) {
   SessionDocument other(file);
   if (other.file_ == file_) return save();
   if (recovery_) requireEditable();
@@ -314,7 +320,11 @@ void SessionDocument::saveAs(const fs::path& file) {
   other.requireEditable();
   other.notices_.clear();
   Session session = session_;
-  copyRuns(session, other.file_);
+  for (const RunRecord& run : restorable) copyTrace(run, other.file_);
+  for (RunRecord& run : session.runs) {
+    copyTrace(run, other.file_);
+    run.file = traceOf(run, other.file_);
+  }
   std::error_code error;
   if (fs::exists(journalFileOf(other.file_), error))
     other.setJournalAside("the session was replaced by another one");
@@ -336,12 +346,29 @@ void SessionHistory::perform(const Session& after, const std::string& text) {
   ++done_;
 }
 
+std::vector<RunRecord> SessionHistory::restorableRuns() const {
+  std::vector<RunRecord> runs;
+  const auto addMissing = [&runs](const Session& other, const Session& session) {
+    for (const std::string& id : casesMissingIn(other, session))
+      for (const RunRecord* run : session.runs.findAll(id)) runs.push_back(*run);
+  };
+  for (const SessionCommand& command : commands_) {
+    addMissing(command.after, command.before);
+    addMissing(command.before, command.after);
+  }
+  return runs;
+}
+
+void SessionHistory::saveAs(const fs::path& file) { document_->saveAs(file, restorableRuns()); }
+
 void SessionHistory::undo() {
   if (!canUndo()) return;
   SessionCommand& command = commands_[done_ - 1];
   const Session current = document_->session();
-  document_->apply(keepingRuns(command.before, current), "Undo: " + command.text);
-  command.after = keepingRuns(command.after, current);  // with the runs of cases that are gone now
+  const fs::path& file = document_->file();
+  document_->apply(keepingRuns(command.before, current, file), "Undo: " + command.text);
+  // With the runs of cases that are gone now.
+  command.after = keepingRuns(command.after, current, file);
   --done_;
 }
 
@@ -349,9 +376,10 @@ void SessionHistory::redo() {
   if (!canRedo()) return;
   SessionCommand& command = commands_[done_];
   const Session current = document_->session();
-  document_->apply(keepingRuns(command.after, current), "Redo: " + command.text);
-  command.before =
-      keepingRuns(command.before, current);  // with the runs of cases that are gone now
+  const fs::path& file = document_->file();
+  document_->apply(keepingRuns(command.after, current, file), "Redo: " + command.text);
+  // With the runs of cases that are gone now.
+  command.before = keepingRuns(command.before, current, file);
   ++done_;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,10 @@ class SessionDocument {
   /// OutputError as above; InputError when the file is no longer a session. Then nothing has
   /// changed.
   void readAgain();
-  /// Saves under another name, replacing an existing file, and continues there; traces of runs are
-  /// copied. The former file stays as it was last saved. OutputError leaves the document unchanged.
-  void saveAs(const std::filesystem::path& file);
+  /// Saves under another name, replacing an existing file, and continues there; traces of its runs
+  /// are copied, and those of `restorable` runs, which it may name again. The former file stays as
+  /// it was last saved. OutputError leaves the document unchanged.
+  void saveAs(const std::filesystem::path& file, std::span<const RunRecord> restorable = {});
 
  private:
   explicit SessionDocument(const std::filesystem::path& file);
@@ -108,6 +110,9 @@ class SessionHistory {
   void perform(const Session& after, const std::string& text);
   void undo();  ///< no effect when there is nothing to undo
   void redo();
+  /// SessionDocument::saveAs with the runs that undo and redo restore: the former session may be
+  /// removed.
+  void saveAs(const std::filesystem::path& file);
 
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < commands_.size(); }
@@ -118,6 +123,9 @@ class SessionHistory {
   std::size_t done() const { return done_; }  ///< commands before this one are in effect
 
  private:
+  /// Runs of cases that an edit added or removed.
+  std::vector<RunRecord> restorableRuns() const;
+
   SessionDocument* document_;
   std::vector<SessionCommand> commands_;
   std::size_t done_ = 0;

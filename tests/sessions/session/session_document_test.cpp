@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "sessions/io/files/errors.h"
@@ -535,6 +536,98 @@ TEST(SessionHistory, ARemovedCaseComesBackWithItsRunAndLaterRunsAndTheViewStay) 
   EXPECT_EQ(document.session().view.case_id, "a");
   history.redo();
   EXPECT_EQ(document.session().lastRunOf("b"), nullptr);
+}
+
+/// A session of two cases with a run each, whose traces are in its folder of runs.
+struct SessionWithTraces : testing::Test {
+  Random random = randomFor("traces");
+  const TemporaryFolder folder;
+  const std::filesystem::path untitled = folder / "untitled/u.json";
+  const std::filesystem::path named = folder / "named/s.json";
+  std::optional<SessionDocument> document;
+
+  SessionWithTraces() {
+    std::filesystem::create_directories(named.parent_path());
+    std::filesystem::create_directories(untitled.parent_path());
+    Session session = withCase(withCase({}, randomCase(random, "a")), randomCase(random, "b"));
+    for (const char* id : {"a", "b"}) session.runs.push_back(storedRun(id));
+    document = SessionDocument::create(untitled, session);
+  }
+
+  RunRecord storedRun(const std::string& id) {
+    RunRecord run = randomRun(random, id);
+    run.file = runFileOf(document ? document->file() : untitled, run.digest);
+    folder.write(run.file.lexically_relative(folder.path()).string(), "trace " + run.digest);
+    return run;
+  }
+  void removeCase(SessionHistory& history, const std::string& id) const {
+    history.perform(withoutCase(document->session(), id), "Remove " + id);
+  }
+  void removeUntitled() const { std::filesystem::remove_all(untitled.parent_path()); }
+
+  /// The traces of the session's runs, in its own folder: "a b".
+  std::string casesWithTraces() const {
+    std::string cases;
+    for (const RunRecord& run : document->session().runs) {
+      EXPECT_EQ(run.file, runFileOf(document->file(), run.digest));
+      const std::string name = run.file.lexically_relative(folder.path()).string();
+      if (folder.read(name) == "trace " + run.digest)
+        cases += (cases.empty() ? "" : " ") + run.case_id;
+    }
+    return cases;
+  }
+};
+
+TEST_F(SessionWithTraces, UndoAfterSaveAs_RestoresRunsWithTheirTraces) {
+  SessionHistory history(*document);
+  removeCase(history, "b");
+  history.saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a");
+  history.undo();
+  EXPECT_EQ(casesWithTraces(), "a b");
+  history.redo();
+  EXPECT_EQ(casesWithTraces(), "a");
+}
+
+TEST_F(SessionWithTraces, UndoAfterSaveAs_OfAnEditBefore_RestoresRunsWithTheirTraces) {
+  SessionHistory history(*document);
+  removeCase(history, "a");
+  history.undo();
+  removeCase(history, "b");
+  removeCase(history, "a");
+  history.undo();
+  history.saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a");
+  removeCase(history, "a");
+  EXPECT_EQ(casesWithTraces(), "");
+  history.undo();
+  history.undo();
+  EXPECT_EQ(casesWithTraces(), "a b");
+}
+
+TEST_F(SessionWithTraces, RedoAfterSaveAs_RestoresRunsWithTheirTraces) {
+  SessionHistory history(*document);
+  history.perform(withCase(document->session(), randomCase(random, "c")), "Add c");
+  Session session = document->session();
+  session.runs.push_back(storedRun("c"));
+  document->apply(session, "Run c");
+  history.undo();
+  history.saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a b");
+  history.redo();
+  EXPECT_EQ(casesWithTraces(), "a b c");
+}
+
+TEST_F(SessionWithTraces, SaveAs_NamesTheCopiesOfItsTraces) {
+  document->saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a b");
+  document->saveAs(folder / "named/t.json");
+  std::filesystem::remove_all(folder / "named/s.runs");
+  EXPECT_EQ(casesWithTraces(), "a b");
 }
 
 TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
