@@ -12,6 +12,7 @@
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/files/link_target.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/log/program_log.h"
@@ -110,7 +111,7 @@ Session keepingRuns(const Session& target, const Session& current, const fs::pat
 }  // namespace
 
 SessionDocument::SessionDocument(const fs::path& file)
-    : file_(fs::absolute(file).lexically_normal()) {}
+    : file_(linkTarget(fs::absolute(file).lexically_normal())) {}
 
 SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
@@ -131,23 +132,33 @@ SessionDocument SessionDocument::open(const fs::path& file, Access access) {
 SessionDocument SessionDocument::create(const fs::path& file, const Session& session) {
   if (file.empty()) throw OutputError("(no name)", "a file name is empty");
   SessionDocument document(file);
+  document.takeLock();
   std::error_code error;
   if (fs::exists(fs::symlink_status(document.file_, error)))
     throw OutputError(file, "the file exists");
   requireWritable(document.file_);
-  document.takeLock();
   document.requireEditable();
   const Session wanted = ordered(session);
   const std::string text = sessionFileText(wanted, document.file_);
   const JsonDocument written(document.file_, text);
   if (!(readSession(written.root()) == wanted)) throw differsWhenRead();
-  if (fs::exists(journalFileOf(document.file_), error))
-    document.setJournalAside("it belonged to a former session of this name");
-  writeFileAtomically(document.file_, text, FileUse::kSession);
-  document.file_sha256_ = sha256Text(text);
-  document.file_bytes_ = text.size();
-  document.session_ = document.saved_ = wanted;
+  document.begin(wanted, text, "it belonged to a former session of this name");
   return document;
+}
+
+/// Until a journal of this name is set aside, it is recognized as one of another state of the file.
+void SessionDocument::begin(Session session, const std::string& text, const std::string& former) {
+  writeFileAtomically(file_, text, FileUse::kSession);
+  file_sha256_ = sha256Text(text);
+  file_bytes_ = text.size();
+  session_ = saved_ = std::move(session);
+  std::error_code error;
+  if (!fs::exists(journalFileOf(file_), error)) return;
+  try {
+    setJournalAside(former);
+  } catch (const OutputError& failed) {
+    notice("the journal of another session of this name is still there: " + failed.reason());
+  }
 }
 
 void SessionDocument::takeLock() {
@@ -252,6 +263,16 @@ void SessionDocument::apply(const Session& next, const std::string& text) {
   if (session_ == saved_) dropJournal();
 }
 
+/// Another program has removed the journal: with all edits since the file was saved.
+void SessionDocument::writeJournalAgain() {
+  const fs::path journal = journalFileOf(file_);
+  JournalWriter writer(journal, file_sha256_);
+  writer.addEdit("Edits before the journal was removed", changeText(saved_, session_, journal));
+  journal_ = std::move(writer);
+  logEvent(LogLevel::kInfo,
+           [&journal] { return journal.string() + ": removed by another program; written again"; });
+}
+
 /// There is nothing to recover.
 void SessionDocument::dropJournal() {
   journal_.reset();
@@ -262,6 +283,8 @@ void SessionDocument::dropJournal() {
 void SessionDocument::addToJournal(const Session& next, const std::string& text) {
   const fs::path journal = journalFileOf(file_);
   const std::string change = changeText(session_, next, journal);
+  std::error_code error;
+  if (journal_ && !fs::exists(journal, error) && !error) writeJournalAgain();
   JournalWriter writer = journal_.value_or(JournalWriter(journal, file_sha256_));
   // The session file has a line for each member: at most twice as long as the change.
   if (file_bytes_ + 2 * (writer.size_bytes() + change.size()) > kMaxSessionBytes)
@@ -313,7 +336,10 @@ void SessionDocument::readAgain() {
 
 void SessionDocument::saveAs(const fs::path& file, std::span<const RunRecord> restorable) {
   SessionDocument other(file);
-  if (other.file_ == file_) return save();
+  std::error_code error;
+  if (other.file_.filename() == file_.filename() &&
+      fs::equivalent(other.file_.parent_path(), file_.parent_path(), error))
+    return save();
   if (recovery_) requireEditable();
   requireWritable(other.file_, FileUse::kSession);
   other.takeLock();
@@ -325,14 +351,8 @@ void SessionDocument::saveAs(const fs::path& file, std::span<const RunRecord> re
     copyTrace(run, other.file_);
     run.file = traceOf(run, other.file_);
   }
-  std::error_code error;
-  if (fs::exists(journalFileOf(other.file_), error))
-    other.setJournalAside("the session was replaced by another one");
   const std::string text = sessionFileText(session, other.file_);
-  writeFileAtomically(other.file_, text, FileUse::kSession);
-  other.file_sha256_ = sha256Text(text);
-  other.file_bytes_ = text.size();
-  other.session_ = other.saved_ = std::move(session);
+  other.begin(std::move(session), text, "the session was replaced by another one");
   if (journal_) fs::remove(journalFileOf(file_), error);  // its edits are in the new file
   *this = std::move(other);
 }

@@ -30,7 +30,7 @@ class SessionDocument {
   static SessionDocument create(const std::filesystem::path& file, const Session& session);
 
   const Session& session() const { return session_; }
-  const std::filesystem::path& file() const { return file_; }  ///< absolute
+  const std::filesystem::path& file() const { return file_; }  ///< absolute, no link
   bool modified() const { return !(session_ == saved_); }      ///< differs from the file
   bool readOnly() const { return !read_only_reason_.empty(); }
   const std::string& readOnlyReason() const { return read_only_reason_; }
@@ -71,13 +71,15 @@ class SessionDocument {
  private:
   explicit SessionDocument(const std::filesystem::path& file);
   void takeLock();
+  void begin(Session session, const std::string& text, const std::string& former);
   void readJournalBeside();
   void notice(const std::string& text);
   void setJournalAside(const std::string& why);
   void keepDamagedJournal();
   void requireEditable() const;
-  /// Writes an edit from session_ to `next` to the journal.
+  void writeJournalAgain();
   void dropJournal();
+  /// Writes an edit from session_ to `next` to the journal.
   void addToJournal(const Session& next, const std::string& text);
 
   std::filesystem::path file_;

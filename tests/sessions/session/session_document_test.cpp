@@ -439,20 +439,132 @@ TEST(Journal, OfVersion1_IsOffered) {
   EXPECT_FALSE(std::filesystem::exists(edited.folder / "s.journal"));
 }
 
-TEST_F(SessionDocumentTest, Save_WhenTheJournalIsGone_StillSaves) {
+TEST_F(SessionDocumentTest, Save_WhenAnotherProgramChangedTheJournal_StillSaves) {
   SessionDocument document = SessionDocument::create(file, first);
   document.apply(edited(first, 1), "Edit 1");
   folder.write("s.journal", "by another program");
   EXPECT_THAT(folder.message([&] { document.apply(edited(first, 2), "Edit 2"); }),
               HasSubstr("another program has changed it"));
   EXPECT_EQ(folder.read("s.journal"), "by another program");
-  std::filesystem::remove(folder / "s.journal");
-  EXPECT_THROW(document.apply(edited(first, 2), "Edit 2"), OutputError);
   document.save();
   document.apply(edited(first, 2), "Edit 2");
   EXPECT_TRUE(readSessionFile(file).session == edited(first, 1));
   { const SessionDocument moved = std::move(document); }
   EXPECT_TRUE(SessionDocument::open(file).recovery()->session == edited(first, 2));
+}
+
+TEST_F(SessionDocumentTest, JournalThatAnotherProgramRemoved_IsWrittenAgainWithAllEdits) {
+  {
+    SessionDocument document = SessionDocument::create(file, first);
+    for (const int number : {1, 2}) document.apply(edited(first, number), "Edit");
+    std::filesystem::remove(folder / "s.journal");
+    for (const int number : {3, 4})
+      document.apply(edited(first, number), "Edit " + std::to_string(number));
+  }
+  const SessionDocument document = SessionDocument::open(file);
+  ASSERT_TRUE(document.recovery());
+  EXPECT_TRUE(document.recovery()->session == edited(first, 4));
+  EXPECT_THAT(document.recovery()->edits,
+              ElementsAre("Edits before the journal was removed", "Edit 3", "Edit 4"));
+}
+
+/// Another session, with unsaved edits of a killed program.
+struct SaveAsOver : SessionDocumentTest {
+  const std::filesystem::path source = folder / "source.json";
+  const Session second = sessionOf("second");
+  std::string file_text, journal;
+
+  SaveAsOver() {
+    leaveUnsaved(2);
+    std::filesystem::remove(folder / "s.lock");
+    file_text = folder.read("s.json");
+    journal = folder.read("s.journal");
+    SessionDocument::create(source, second);
+  }
+};
+
+TEST_F(SaveAsOver, WhenItCannotBeWritten_LeavesFileAndJournalOfTheOther) {
+  const std::string said = inChild([&] {
+    SessionDocument document = SessionDocument::open(source);
+    limitFileSize(file_text.size() / 2);
+    return folder.message([&] { document.saveAs(file); });
+  });
+  EXPECT_EQ(said, "cannot write s.json: File too large");
+  EXPECT_EQ(folder.read("s.json"), file_text);
+  EXPECT_EQ(folder.read("s.journal"), journal);
+  EXPECT_TRUE(SessionDocument::open(file).recovery()->session == edited(first, 2));
+}
+
+TEST_F(SaveAsOver, SetsTheJournalOfTheOtherAside) {
+  SessionDocument document = SessionDocument::open(source);
+  document.saveAs(file);
+  EXPECT_TRUE(document.session() == second);
+  EXPECT_EQ(folder.read("s.journal.aside-1"), journal);
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+}
+
+TEST_F(SaveAsOver, KilledBeforeTheJournalIsSetAside_IsTheNewSession) {
+  writeSessionFile(file, second);
+  const SessionDocument document = SessionDocument::open(file);
+  EXPECT_TRUE(document.session() == second);
+  EXPECT_FALSE(document.recovery());
+  EXPECT_EQ(folder.read("s.journal.aside-1"), journal);
+}
+
+/// Two programs create the same file; while the second waits for the lock, the first ends.
+TEST_F(SessionDocumentTest, Create_WhileAnotherProgramCreatesTheFile_LeavesItsSession) {
+  const std::string text = sessionText(sessionOf("other"), file);
+  for (int round = 0; round < 20; ++round) {
+    std::filesystem::remove(file);
+    auto lock = std::make_unique<FileLock>(lockFileOf(file));
+    std::string said;
+    std::thread second(
+        [&] { said = folder.message([&] { SessionDocument::create(file, first); }); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    folder.write("s.json", text);
+    lock.reset();
+    second.join();
+    EXPECT_THAT(said, testing::AnyOf(HasSubstr("the file exists"), HasSubstr("is open already")));
+    ASSERT_EQ(folder.read("s.json"), text) << "round " << round;
+  }
+}
+
+/// The same session by another name.
+struct LinkedSession : SessionDocumentTest {
+  const std::filesystem::path link = folder / "elsewhere/link.json";
+  LinkedSession() {
+    SessionDocument::create(file, first);
+    std::filesystem::create_directory(link.parent_path());
+    std::filesystem::create_symlink("../s.json", link);
+  }
+};
+
+TEST_F(LinkedSession, IsOpenForOneProgramByBothNames) {
+  SessionDocument document = SessionDocument::open(link);
+  EXPECT_EQ(document.file(), std::filesystem::canonical(file));
+  EXPECT_TRUE(document.session() == first) << "its inputs are where the file is";
+  EXPECT_THAT(SessionDocument::open(file).readOnlyReason(), HasSubstr("it is open already"));
+  EXPECT_THAT(SessionDocument::open(link).readOnlyReason(), HasSubstr("it is open already"));
+  document.apply(edited(first, 1), "Edit");
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.journal"));
+  document.saveAs(file);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_FALSE(document.modified());
+  EXPECT_TRUE(readSessionFile(link).session == edited(first, 1));
+}
+
+TEST_F(LinkedSession, UnsavedEdits_AreOfferedByBothNames) {
+  { SessionDocument::open(link).apply(edited(first, 1), "Edit"); }
+  EXPECT_TRUE(SessionDocument::open(file).recovery());
+  EXPECT_TRUE(SessionDocument::open(link).recovery());
+}
+
+TEST_F(LinkedSession, LinkWithoutAFile_IsTheNameOfItsTarget) {
+  std::filesystem::create_symlink("t.json", folder / "link-to-t.json");
+  SessionDocument document = SessionDocument::open(file);
+  document.saveAs(folder / "link-to-t.json");
+  EXPECT_EQ(document.file(), std::filesystem::canonical(folder / "t.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "t.lock"));
 }
 
 TEST_F(SessionDocumentTest, AnEditWritesWhatItChangesAlone) {
