@@ -176,7 +176,7 @@ void describeSession(const path& file) {
        countText(std::ssize(session.runs), "run") + ", profile " + session.profile + ", " +
        std::to_string(session.options.size()) +
        " options differ: " + sessions::toJson(session.options).dump());
-  if (const auto holder = sessions::readLockFile(sessions::lockFileOf(file)))
+  if (const auto holder = sessions::readLockFile(sessions::lockFileOf(document.file())))
     line((sessions::hasEnded(*holder) ? "was left open by " : "is open in ") + holder->text());
   for (const std::string& text : document.notices()) flag(text);
   if (document.recovery())

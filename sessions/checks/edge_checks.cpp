@@ -128,11 +128,15 @@ Check cameraCheck(const CheckName& name, const std::string& what, const AskedCha
 
 void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
                      const CheckLimits& limits, std::vector<Check>& checks) {
-  if (!fit)
-    return addNotAsked({kFocal, kCentre},
-                       "The edges do not determine the camera together with the pose.", checks);
-  const double percent = 100.0 / session_case.camera.fx;
   const InputSigmas known(session_case);
+  if (!fit) {
+    const char* why = "The edges do not determine the camera together with the pose.";
+    if (known.calibration_stated) return addNotAsked({kFocal, kCentre}, why, checks);
+    for (const CheckName& name : {kFocal, kCentre})
+      checks.push_back(statedCheck(name, false, why, kUndecidedRemedy));
+    return;
+  }
+  const double percent = 100.0 / session_case.camera.fx;
   checks.push_back(
       cameraCheck(kFocal, "focal length changes by ",
                   {percent * fit->focal_px, percent * fit->focal_sigma_px,
@@ -264,10 +268,10 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   const bool measurable = canBeMeasured(subject);
   if (!measurable || edges.places.empty()) {
     const std::string why = measurable ? "The pose shows no edge of the station in the image."
-                                       : "No image has the camera's size.";
-    checks.push_back(measurable
-                         ? statedCheck(kCoverage, false, why, "Check the overlay and the seed.")
-                         : notAskedCheck(kCoverage, why));
+                                       : "The image does not have the camera's size.";
+    checks.push_back(statedCheck(
+        kCoverage, false, why,
+        measurable ? "Check the overlay and the seed." : "Use the image's own camera."));
     return addNotAsked({kClutter, kEvidence, kFallOff, kWidth, kFocal, kCentre}, why, checks);
   }
   const LoadedCase& loaded = *subject.loaded;

@@ -6,6 +6,7 @@
 
 #include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -114,6 +115,14 @@ PoseQuality poseQuality(const ReviewSubject& subject, double sigmas) {
                             rotationLimit_mrad(required), ""),
                      imageFigure(subject, sigmas, known)};
   return quality;
+}
+
+std::string unconfirmedSigmasText(int degrees_of_freedom) {
+  constexpr int kLeast = 6;
+  if (degrees_of_freedom >= kLeast) return "";
+  return "The annotations have " + countText(degrees_of_freedom, "degree") +
+         " of freedom, which cannot confirm their sigmas: annotate more points (6 that agree "
+         "suffice).";
 }
 
 PoseQuality runQuality(const Session& session, const std::shared_ptr<const LoadedCase>& loaded,

@@ -49,6 +49,10 @@ struct PoseQuality {
 
 PoseQuality poseQuality(const ReviewSubject& subject, double sigmas);
 
+/// Why annotations with these degrees of freedom do not show whether they are as accurate as their
+/// sigmas state, and what to do: a sentence; "" for 6 and more.
+std::string unconfirmedSigmasText(int degrees_of_freedom);
+
 /// Quality of a run's pose with the session's limits; `loaded` is the case that ran.
 PoseQuality runQuality(const Session& session, const std::shared_ptr<const LoadedCase>& loaded,
                        const LocalizationTrace& run);

@@ -162,9 +162,9 @@ Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
 }
 
 constexpr const char* kNotRequired = "The requirement does not limit this value.";
-constexpr const char* kNoCovariance = "The pose has no covariance.";
-/// Fewer do not show whether annotations are as accurate as their sigmas state.
-constexpr int kLeastDegreesOfFreedom = 6;
+constexpr const char* kNoCovariance =
+    "The pose has no covariance, so that its precision is unknown.";
+constexpr const char* kNoCovarianceRemedy = "Run the case again, or annotate it.";
 constexpr const char* kPictureRemedy =
     "The seen edges constrain the pose too weakly: take a nearer image, or one with more of the "
     "station.";
@@ -194,12 +194,11 @@ std::string inputsText(const ReviewSubject& subject, const PrecisionFigure& figu
 Check precisionCheck(const ReviewSubject& subject, const PrecisionFigure& figure,
                      const std::string& sigmas) {
   if (!figure.required) return notAskedCheck(figure.check, kNotRequired);
-  if (!figure.found) return notAskedCheck(figure.check, kNoCovariance);
-  const int freedom = subject.degrees_of_freedom.value_or(kLeastDegreesOfFreedom);
-  if (freedom < kLeastDegreesOfFreedom && *figure.found <= *figure.required)
-    return notAskedCheck(figure.check, "The annotations have " + std::to_string(freedom) +
-                                           " degrees of freedom, which do not confirm their "
-                                           "sigmas: annotate at least 6 points.");
+  if (!figure.found) return statedCheck(figure.check, false, kNoCovariance, kNoCovarianceRemedy);
+  const std::string unconfirmed = subject.degrees_of_freedom && figure.holds()
+                                      ? unconfirmedSigmasText(*subject.degrees_of_freedom)
+                                      : "";
+  if (!unconfirmed.empty()) return statedCheck(figure.check, false, unconfirmed, "");
   return measuredCheck(figure.check, figure.unit, *figure.found, *figure.required,
                        LimitSide::kAtMost,
                        sigmas + figure.place + " are " + sentenceNumber(*figure.found) + " " +

@@ -9,6 +9,7 @@
 
 #include "sessions/evaluation/run_rows.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/io/files/link_target.h"
 #include "sessions/log/program_log.h"
 #include "sessions/text/utc_time.h"
 
@@ -169,7 +170,7 @@ void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& tak
 }  // namespace
 
 std::unique_ptr<FileLock> lockResults(const std::filesystem::path& file) {
-  std::filesystem::path lock_file = file;
+  std::filesystem::path lock_file = linkTarget(file);  // the same by all names of the file
   lock_file += ".lock";
   auto lock = std::make_unique<FileLock>(lock_file);
   if (!lock->held())

@@ -23,8 +23,9 @@ inline constexpr std::array<const char*, 4> kLogLevelNames = {"off", "error", "i
 std::filesystem::path userLogFile();
 
 /// Appends to this file from now on; at 2 MB it is renamed to boresight.1.log and so on, of which
-/// two are kept. Programs may share the file: each line names its process. A file that cannot be
-/// written leaves the log off and is no error; nor is a disk that gets full. Not thread-safe.
+/// two are kept. Programs may share the file, whichever renames it: each line names its process. A
+/// file that cannot be written leaves the log off and is no error; nor is a disk that gets full.
+/// Not thread-safe.
 void startLog(const std::filesystem::path& file, LogLevel level);
 /// Ends the log. Not thread-safe.
 void stopLog();

@@ -88,8 +88,10 @@ AnnotationConcern annotationConcern(const CaseAnnotationsSolution& solution,
   if (noisy)
     concern.text =
         "The residuals are " + sentenceNumber(solved.noise_factor) + " times the stated sigmas.";
-  if (quality.worst() == nullptr || quality.holds()) return concern;
-  concern.text += (concern.text.empty() ? "" : " ") + ("Pose known to " + quality.text() + ".");
+  if (quality.worst() == nullptr) return concern;
+  const std::string precision = quality.holds() ? unconfirmedSigmasText(solved.degrees_of_freedom)
+                                                : "Pose known to " + quality.text() + ".";
+  if (!precision.empty()) concern.text += (concern.text.empty() ? "" : " ") + precision;
   return concern;
 }
 

@@ -19,7 +19,7 @@ PoseQuality annotationQuality(const std::shared_ptr<const LoadedCase>& loaded,
 /// Why the pose of annotations is not good enough.
 struct AnnotationConcern {
   /// Sentences: residuals of more than three times the stated sigmas, a figure beyond the
-  /// requirement. "" when it is good enough.
+  /// requirement, too few annotations to confirm a figure. "" when it is good enough.
   std::string text;
   /// Annotations of the case that a robust solution gives less than half the weight, by id.
   /// Determined when the residuals are too large or the solution is robust.

@@ -12,6 +12,7 @@
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/files/link_target.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/log/program_log.h"
@@ -59,43 +60,49 @@ fs::path asideName(const fs::path& journal) {
   }
 }
 
-/// Traces are immutable: a copy that is there already is right.
-void copyRuns(Session& session, const fs::path& to_session) {
+/// Where a session has the trace of a run: in its own folder, or where the run names it.
+fs::path traceOf(const RunRecord& run, const fs::path& session_file) {
   std::error_code error;
-  if (!session.runs.empty()) fs::create_directories(runsFolderOf(to_session), error);
-  if (error) throw OutputError(runsFolderOf(to_session), error.message());
-  for (RunRecord& run : session.runs) {
-    const fs::path copy = runFileOf(to_session, run.digest);
-    if (!fs::exists(run.file, error)) continue;  // is reported by checkInputs
-    if (!fs::exists(copy, error))
-      writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX, FileUse::kRun), FileUse::kRun);
-    run.file = copy;
-  }
+  const fs::path own = runFileOf(session_file, run.digest);
+  return fs::exists(own, error) ? own : run.file;
 }
 
-/// The session after an undo or redo to `target`. Runs and view state are not edits: they are kept
-/// from `current`, except for cases that only `target` has (its runs are used) or lacks (no runs).
-Session keepingRuns(const Session& target, const Session& current) {
+/// Traces are immutable: a copy that is there already is right. A missing one is reported by
+/// checkInputs.
+void copyTrace(const RunRecord& run, const fs::path& to_session) {
+  std::error_code error;
+  const fs::path copy = runFileOf(to_session, run.digest);
+  if (fs::exists(copy, error) || !fs::exists(run.file, error)) return;
+  fs::create_directories(copy.parent_path(), error);
+  if (error) throw OutputError(copy.parent_path(), error.message());
+  writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX, FileUse::kRun), FileUse::kRun);
+}
+
+/// Ids of the cases that `session` has and `other` lacks.
+std::set<std::string> casesMissingIn(const Session& other, const Session& session) {
+  std::set<std::string> ids;
+  const auto add = [&](std::size_t /*i*/, const SharedValue<SessionCase>& session_case) {
+    if (other.findCase(session_case->id) == nullptr) ids.insert(session_case->id);
+  };
+  decltype(session.cases)::forEachDifference(
+      other.cases, session.cases, add, [](std::size_t /*i*/) {}, add);
+  return ids;
+}
+
+/// The session in `file` after an undo or redo to `target`. Runs and view state are not edits: they
+/// are kept from `current`, except for cases that only `target` has (its runs are used) or lacks
+/// (no runs).
+Session keepingRuns(const Session& target, const Session& current, const fs::path& file) {
   Session kept = target;
   kept.runs = current.runs;
-  std::set<std::string> appeared;
-  const auto vanishes = [&](std::size_t i) {
-    const std::string& id = current.cases[i]->id;
-    if (target.findCase(id) == nullptr)
-      kept.runs.eraseIf(id, [](const RunRecord& /*run*/) { return true; });
-  };
-  const auto appears = [&](std::size_t /*i*/, const SharedValue<SessionCase>& session_case) {
-    if (current.findCase(session_case->id) == nullptr) appeared.insert(session_case->id);
-  };
-  decltype(kept.cases)::forEachDifference(
-      current.cases, target.cases,
-      [&](std::size_t i, const SharedValue<SessionCase>& session_case) {
-        vanishes(i);
-        appears(i, session_case);
-      },
-      vanishes, appears);
-  for (const std::string& id : appeared)
-    for (const RunRecord* run : target.runs.findAll(id)) kept.runs.push_back(*run);
+  for (const std::string& id : casesMissingIn(target, current))
+    kept.runs.eraseIf(id, [](const RunRecord& /*run*/) { return true; });
+  for (const std::string& id : casesMissingIn(current, target))
+    for (const RunRecord* run : target.runs.findAll(id)) {
+      RunRecord restored = *run;
+      restored.file = traceOf(*run, file);  // it was saved under another name since
+      kept.runs.push_back(std::move(restored));
+    }
   kept.view = current.view;
   if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
   return kept;
@@ -104,7 +111,7 @@ Session keepingRuns(const Session& target, const Session& current) {
 }  // namespace
 
 SessionDocument::SessionDocument(const fs::path& file)
-    : file_(fs::absolute(file).lexically_normal()) {}
+    : file_(linkTarget(fs::absolute(file).lexically_normal())) {}
 
 SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
@@ -125,23 +132,33 @@ SessionDocument SessionDocument::open(const fs::path& file, Access access) {
 SessionDocument SessionDocument::create(const fs::path& file, const Session& session) {
   if (file.empty()) throw OutputError("(no name)", "a file name is empty");
   SessionDocument document(file);
+  document.takeLock();
   std::error_code error;
   if (fs::exists(fs::symlink_status(document.file_, error)))
     throw OutputError(file, "the file exists");
   requireWritable(document.file_);
-  document.takeLock();
   document.requireEditable();
   const Session wanted = ordered(session);
   const std::string text = sessionFileText(wanted, document.file_);
   const JsonDocument written(document.file_, text);
   if (!(readSession(written.root()) == wanted)) throw differsWhenRead();
-  if (fs::exists(journalFileOf(document.file_), error))
-    document.setJournalAside("it belonged to a former session of this name");
-  writeFileAtomically(document.file_, text, FileUse::kSession);
-  document.file_sha256_ = sha256Text(text);
-  document.file_bytes_ = text.size();
-  document.session_ = document.saved_ = wanted;
+  document.begin(wanted, text, "it belonged to a former session of this name");
   return document;
+}
+
+/// Until a journal of this name is set aside, it is recognized as one of another state of the file.
+void SessionDocument::begin(Session session, const std::string& text, const std::string& former) {
+  writeFileAtomically(file_, text, FileUse::kSession);
+  file_sha256_ = sha256Text(text);
+  file_bytes_ = text.size();
+  session_ = saved_ = std::move(session);
+  std::error_code error;
+  if (!fs::exists(journalFileOf(file_), error)) return;
+  try {
+    setJournalAside(former);
+  } catch (const OutputError& failed) {
+    notice("the journal of another session of this name is still there: " + failed.reason());
+  }
 }
 
 void SessionDocument::takeLock() {
@@ -246,6 +263,16 @@ void SessionDocument::apply(const Session& next, const std::string& text) {
   if (session_ == saved_) dropJournal();
 }
 
+/// Another program has removed the journal: with all edits since the file was saved.
+void SessionDocument::writeJournalAgain() {
+  const fs::path journal = journalFileOf(file_);
+  JournalWriter writer(journal, file_sha256_);
+  writer.addEdit("Edits before the journal was removed", changeText(saved_, session_, journal));
+  journal_ = std::move(writer);
+  logEvent(LogLevel::kInfo,
+           [&journal] { return journal.string() + ": removed by another program; written again"; });
+}
+
 /// There is nothing to recover.
 void SessionDocument::dropJournal() {
   journal_.reset();
@@ -256,6 +283,8 @@ void SessionDocument::dropJournal() {
 void SessionDocument::addToJournal(const Session& next, const std::string& text) {
   const fs::path journal = journalFileOf(file_);
   const std::string change = changeText(session_, next, journal);
+  std::error_code error;
+  if (journal_ && !fs::exists(journal, error) && !error) writeJournalAgain();
   JournalWriter writer = journal_.value_or(JournalWriter(journal, file_sha256_));
   // The session file has a line for each member: at most twice as long as the change.
   if (file_bytes_ + 2 * (writer.size_bytes() + change.size()) > kMaxSessionBytes)
@@ -305,24 +334,25 @@ void SessionDocument::readAgain() {
   session_ = saved_ = std::move(saved.session);
 }
 
-void SessionDocument::saveAs(const fs::path& file) {
+void SessionDocument::saveAs(const fs::path& file, std::span<const RunRecord> restorable) {
   SessionDocument other(file);
-  if (other.file_ == file_) return save();
+  std::error_code error;
+  if (other.file_.filename() == file_.filename() &&
+      fs::equivalent(other.file_.parent_path(), file_.parent_path(), error))
+    return save();
   if (recovery_) requireEditable();
   requireWritable(other.file_, FileUse::kSession);
   other.takeLock();
   other.requireEditable();
   other.notices_.clear();
   Session session = session_;
-  copyRuns(session, other.file_);
-  std::error_code error;
-  if (fs::exists(journalFileOf(other.file_), error))
-    other.setJournalAside("the session was replaced by another one");
+  for (const RunRecord& run : restorable) copyTrace(run, other.file_);
+  for (RunRecord& run : session.runs) {
+    copyTrace(run, other.file_);
+    run.file = traceOf(run, other.file_);
+  }
   const std::string text = sessionFileText(session, other.file_);
-  writeFileAtomically(other.file_, text, FileUse::kSession);
-  other.file_sha256_ = sha256Text(text);
-  other.file_bytes_ = text.size();
-  other.session_ = other.saved_ = std::move(session);
+  other.begin(std::move(session), text, "the session was replaced by another one");
   if (journal_) fs::remove(journalFileOf(file_), error);  // its edits are in the new file
   *this = std::move(other);
 }
@@ -336,12 +366,29 @@ void SessionHistory::perform(const Session& after, const std::string& text) {
   ++done_;
 }
 
+std::vector<RunRecord> SessionHistory::restorableRuns() const {
+  std::vector<RunRecord> runs;
+  const auto addMissing = [&runs](const Session& other, const Session& session) {
+    for (const std::string& id : casesMissingIn(other, session))
+      for (const RunRecord* run : session.runs.findAll(id)) runs.push_back(*run);
+  };
+  for (const SessionCommand& command : commands_) {
+    addMissing(command.after, command.before);
+    addMissing(command.before, command.after);
+  }
+  return runs;
+}
+
+void SessionHistory::saveAs(const fs::path& file) { document_->saveAs(file, restorableRuns()); }
+
 void SessionHistory::undo() {
   if (!canUndo()) return;
   SessionCommand& command = commands_[done_ - 1];
   const Session current = document_->session();
-  document_->apply(keepingRuns(command.before, current), "Undo: " + command.text);
-  command.after = keepingRuns(command.after, current);  // with the runs of cases that are gone now
+  const fs::path& file = document_->file();
+  document_->apply(keepingRuns(command.before, current, file), "Undo: " + command.text);
+  // With the runs of cases that are gone now.
+  command.after = keepingRuns(command.after, current, file);
   --done_;
 }
 
@@ -349,9 +396,10 @@ void SessionHistory::redo() {
   if (!canRedo()) return;
   SessionCommand& command = commands_[done_];
   const Session current = document_->session();
-  document_->apply(keepingRuns(command.after, current), "Redo: " + command.text);
-  command.before =
-      keepingRuns(command.before, current);  // with the runs of cases that are gone now
+  const fs::path& file = document_->file();
+  document_->apply(keepingRuns(command.after, current, file), "Redo: " + command.text);
+  // With the runs of cases that are gone now.
+  command.before = keepingRuns(command.before, current, file);
   ++done_;
 }
 

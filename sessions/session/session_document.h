@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ class SessionDocument {
   static SessionDocument create(const std::filesystem::path& file, const Session& session);
 
   const Session& session() const { return session_; }
-  const std::filesystem::path& file() const { return file_; }  ///< absolute
+  const std::filesystem::path& file() const { return file_; }  ///< absolute, no link
   bool modified() const { return !(session_ == saved_); }      ///< differs from the file
   bool readOnly() const { return !read_only_reason_.empty(); }
   const std::string& readOnlyReason() const { return read_only_reason_; }
@@ -62,20 +63,23 @@ class SessionDocument {
   /// OutputError as above; InputError when the file is no longer a session. Then nothing has
   /// changed.
   void readAgain();
-  /// Saves under another name, replacing an existing file, and continues there; traces of runs are
-  /// copied. The former file stays as it was last saved. OutputError leaves the document unchanged.
-  void saveAs(const std::filesystem::path& file);
+  /// Saves under another name, replacing an existing file, and continues there; traces of its runs
+  /// are copied, and those of `restorable` runs, which it may name again. The former file stays as
+  /// it was last saved. OutputError leaves the document unchanged.
+  void saveAs(const std::filesystem::path& file, std::span<const RunRecord> restorable = {});
 
  private:
   explicit SessionDocument(const std::filesystem::path& file);
   void takeLock();
+  void begin(Session session, const std::string& text, const std::string& former);
   void readJournalBeside();
   void notice(const std::string& text);
   void setJournalAside(const std::string& why);
   void keepDamagedJournal();
   void requireEditable() const;
-  /// Writes an edit from session_ to `next` to the journal.
+  void writeJournalAgain();
   void dropJournal();
+  /// Writes an edit from session_ to `next` to the journal.
   void addToJournal(const Session& next, const std::string& text);
 
   std::filesystem::path file_;
@@ -108,6 +112,9 @@ class SessionHistory {
   void perform(const Session& after, const std::string& text);
   void undo();  ///< no effect when there is nothing to undo
   void redo();
+  /// SessionDocument::saveAs with the runs that undo and redo restore: the former session may be
+  /// removed.
+  void saveAs(const std::filesystem::path& file);
 
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < commands_.size(); }
@@ -118,6 +125,9 @@ class SessionHistory {
   std::size_t done() const { return done_; }  ///< commands before this one are in effect
 
  private:
+  /// Runs of cases that an edit added or removed.
+  std::vector<RunRecord> restorableRuns() const;
+
   SessionDocument* document_;
   std::vector<SessionCommand> commands_;
   std::size_t done_ = 0;

@@ -9,6 +9,7 @@
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/files/link_target.h"
 #include "sessions/io/json/config_file.h"
 #include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_reader.h"
@@ -203,7 +204,7 @@ SavedSession readSessionFile(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxSessionBytes, FileUse::kSession);
   if (asText(bytes).starts_with("PK\x03\x04"))
     throw InputError(file, "an archive of whs pack: unpack it, then open its session");
-  const JsonDocument document(file, asText(bytes));
+  const JsonDocument document(linkTarget(file), asText(bytes));  // its inputs are relative to that
   return {readSession(document.root()), sha256Text(bytes), bytes.size()};
 }
 

@@ -15,7 +15,8 @@
 namespace boresight::sessions {
 
 /// Files next to `name.json`: `name.journal`, `name.lock`, `name.runs/`. Another extension than
-/// .json is kept as part of the name.
+/// .json is kept as part of the name. A file has the same ones by all its names only where these
+/// are no symbolic links: linkTarget().
 std::filesystem::path journalFileOf(const std::filesystem::path& session_file);
 std::filesystem::path lockFileOf(const std::filesystem::path& session_file);
 std::filesystem::path runsFolderOf(const std::filesystem::path& session_file);

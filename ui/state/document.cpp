@@ -154,7 +154,7 @@ bool Document::save() {
 bool Document::saveAs(const std::filesystem::path& file) {
   Q_EMIT aboutToChange();
   const std::filesystem::path former = this->file();
-  if (!document_ || !attempt(nullptr, [&] { document_->saveAs(file); })) return false;
+  if (!document_ || !attempt(nullptr, [&] { history_->saveAs(file); })) return false;
   if (std::exchange(untitled_, false) && former != this->file()) removeUntitled(former);
   ++saved_as_;
   Q_EMIT changed();

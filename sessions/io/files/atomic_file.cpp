@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/append_file.h"
+#include "sessions/io/files/link_target.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -42,22 +43,6 @@ std::optional<int> descriptorIn(const fs::path& name) {
   const fs::path folder = name.parent_path();
   if (folder != "/proc/self/fd" && folder != "/dev/fd") return std::nullopt;
   return numberIn<int>(name.filename().string());
-}
-
-/// Where a chain of symbolic links ends, so that renaming replaces the file and not the link; at an
-/// open file of this process, as /dev/stdout does, it ends at its name.
-fs::path linkTarget(const fs::path& file) {
-  constexpr int kMaxLinks = 40;
-  fs::path target = file;
-  for (int i = 0; i < kMaxLinks; ++i) {
-    std::error_code error;
-    if (descriptorIn(target)) return target;
-    if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
-    const fs::path next = fs::read_symlink(target, error);
-    if (error) fail(file, error.value());
-    target = next.is_absolute() ? next : target.parent_path() / next;
-  }
-  fail(file, ELOOP);
 }
 
 /// Owns the descriptor, and the temporary name until it is renamed away.
@@ -188,6 +173,22 @@ void logWritten(const fs::path& target) {
 }
 
 }  // namespace
+
+fs::path linkTarget(const fs::path& file) {
+  constexpr int kMaxLinks = 40;
+  fs::path target = file;
+  for (int i = 0; i < kMaxLinks; ++i) {
+    std::error_code error;
+    if (descriptorIn(target)) return target;
+    if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
+    const fs::path next = folderOf(target) / fs::read_symlink(target, error);
+    if (error) fail(file, error.value());
+    if (descriptorIn(next)) return next;
+    target = fs::weakly_canonical(next.parent_path(), error) / next.filename();
+    if (error) fail(file, error.value());
+  }
+  fail(file, ELOOP);
+}
 
 void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
   const Target target = targetOf(file, use);

@@ -2,6 +2,8 @@
 // Edges of a box that OpenCV drew, asked at the pose that it was drawn from and at others.
 #include "sessions/checks/checks.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -220,7 +222,21 @@ TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
   EXPECT_EQ(focalState(), CheckState::kNotApplicable);
 }
 
-TEST_F(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
+TEST_F(EdgeChecks, CameraThatTheEdgesDoNotDetermine_FailsUnlessItsCalibrationIsStated) {
+  ReviewSubject subject = this->subject();
+  const auto black = copyOf(*subject.loaded);
+  std::ranges::fill(black->image.pixels, std::uint8_t{0});
+  subject.loaded = black;
+  const auto stateOf = [&](const char* id) { return findCheck(edgeChecksOf(subject), id).state; };
+  EXPECT_EQ(stateOf("camera_focal"), CheckState::kFailed);
+  EXPECT_EQ(stateOf("camera_centre"), CheckState::kFailed);
+  const auto stated = copyOf(*black);
+  stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
+  subject.loaded = stated;
+  EXPECT_EQ(stateOf("camera_focal"), CheckState::kNotApplicable);
+}
+
+TEST_F(EdgeChecks, PoseThatShowsNothingAndImageOfAnotherSize_Fail) {
   Pose behind = box.camera_from_station_;
   behind.translation_m.z() = -1.0;
   EXPECT_EQ(findCheck(edgeChecksOf(box.subject(behind)), "edge_coverage").state,
@@ -230,7 +246,9 @@ TEST_F(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) 
   other->image = {};
   subject.loaded = other;
   for (const Check& check : edgeChecksOf(subject))
-    EXPECT_EQ(check.state, CheckState::kNotApplicable) << check.id;
+    EXPECT_EQ(check.state,
+              check.id == "edge_coverage" ? CheckState::kFailed : CheckState::kNotApplicable)
+        << check.id;
 }
 
 }  // namespace

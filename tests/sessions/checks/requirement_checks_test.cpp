@@ -215,7 +215,6 @@ class PrecisionChecks : public testing::Test {
 };
 
 TEST_F(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
-  EXPECT_EQ(checkOf("covariance_normal").state, CheckState::kNotApplicable) << "no covariance";
   subject_.covariance.picture = someCovariance();
   subject_.requirement = {0.5, 0.5, {}, {}};
   EXPECT_NEAR(checkOf("covariance_normal").figure.value(), 0.6, 1e-9);
@@ -225,15 +224,30 @@ TEST_F(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
   EXPECT_EQ(checkOf("covariance_rotation").state, CheckState::kNotApplicable);
 }
 
-TEST_F(PrecisionChecks, FewAnnotations_DoNotConfirmASmallSigmaButALargeOneFails) {
+TEST_F(PrecisionChecks, FewAnnotations_FailWhereTheRequirementLimitsTheirSigmas) {
   subject_.covariance.picture = someCovariance();
   subject_.requirement = {0.5, 0.5, {}, {}};
-  subject_.degrees_of_freedom = 2;
+  subject_.degrees_of_freedom = 5;
   EXPECT_EQ(checkOf("covariance_normal").state, CheckState::kFailed);
-  EXPECT_EQ(checkOf("covariance_lateral").state, CheckState::kNotApplicable);
-  EXPECT_THAT(checkOf("covariance_lateral").sentence, HasSubstr("have 2 degrees of freedom"));
+  EXPECT_THAT(checkOf("covariance_normal").sentence, HasSubstr("are 0.600 mm"))
+      << "it is too large";
+  EXPECT_EQ(checkOf("covariance_lateral").state, CheckState::kFailed);
+  EXPECT_EQ(checkOf("covariance_lateral").sentence,
+            "The annotations have 5 degrees of freedom, which cannot confirm their sigmas: "
+            "annotate more points (6 that agree suffice).");
+  EXPECT_EQ(checkOf("covariance_rotation").state, CheckState::kNotApplicable);
   subject_.degrees_of_freedom = 6;
   EXPECT_EQ(checkOf("covariance_lateral").state, CheckState::kPassed);
+}
+
+TEST_F(PrecisionChecks, PoseWithoutCovariance_FailsWhatTheRequirementLimits) {
+  subject_.requirement = {0.5, {}, {}, 3.5};
+  for (const char* id : {"covariance_normal", "covariance_projection"}) {
+    EXPECT_EQ(checkOf(id).state, CheckState::kFailed) << id;
+    EXPECT_THAT(checkOf(id).sentence, HasSubstr("has no covariance")) << id;
+  }
+  for (const char* id : {"covariance_lateral", "covariance_rotation"})
+    EXPECT_EQ(checkOf(id).state, CheckState::kNotApplicable) << id;
 }
 
 TEST_F(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {

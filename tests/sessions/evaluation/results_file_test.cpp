@@ -246,6 +246,13 @@ TEST_F(ResultsFile, LeavesOtherFilesAndThoseOfAnotherRunAlone) {
 }
 
 /// SQLite would take the first for an address, and the second for no file.
+TEST(ResultsLock, FileByTwoNames_HasOneLock) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("r.sqlite", folder / "link.sqlite");
+  const auto lock = lockResults(folder / "link.sqlite");
+  EXPECT_THROW(lockResults(folder / "r.sqlite"), OutputError);
+}
+
 TEST_F(ResultsFile, NameWithAColon_IsThatOfAFile) {
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder_.path());

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/log/program_log.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <set>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -63,6 +70,44 @@ TEST_F(ProgramLog, IsContinuedAndRotated) {
     ++files;
   }
   EXPECT_EQ(files, 3u);
+}
+
+/// Writes 1000 B lines of programs that run at the same time and rename the file.
+TEST_F(ProgramLog, ProgramsThatShareIt_LoseNoLineWhenItIsRotated) {
+  constexpr int kPrograms = 3;
+  constexpr int kLines = 1500;
+  std::vector<pid_t> programs;
+  for (int program = 0; program < kPrograms; ++program) {
+    programs.push_back(::fork());
+    if (programs.back() != 0) continue;
+    startLog(file_, LogLevel::kInfo);
+    for (int line = 0; line < kLines; ++line)
+      logText(LogLevel::kInfo, "line " + std::to_string(program) + "," + std::to_string(line) +
+                                   std::string(1000, '.'));
+    ::_exit(0);
+  }
+  for (const pid_t program : programs) ASSERT_EQ(::waitpid(program, nullptr, 0), program);
+  std::set<std::string> lines;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "state")) {
+    EXPECT_LE(entry.file_size(), 2'000'000u + kPrograms * 1100u);
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);)
+      lines.insert(line.substr(line.find("line "), line.find("...") - line.find("line ")));
+  }
+  EXPECT_EQ(lines.size(), static_cast<std::size_t>(kPrograms * kLines));
+}
+
+TEST_F(ProgramLog, IsNotOpenInProgramsThatAreStarted) {
+  startLog(file_, LogLevel::kInfo);
+  bool found = false;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code error;
+    if (std::filesystem::read_symlink(entry.path(), error) != file_) continue;
+    found = true;
+    const int flags = ::fcntl(std::stoi(entry.path().filename().string()), F_GETFD);
+    EXPECT_TRUE((flags & FD_CLOEXEC) != 0);
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST_F(ProgramLog, FolderThatCannotBeWritten_LeavesItOff) {

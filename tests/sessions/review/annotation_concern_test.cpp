@@ -55,6 +55,14 @@ TEST(AnnotationConcern, GoodAnnotations_AreNoneWithinTheRequirement) {
             "Pose known to 0.90 of 0.40 mm (3 sigma across the view axis at the camera).");
 }
 
+TEST(AnnotationConcern, TooFewAnnotations_AreOneWhereTheRequirementLimitsTheirSigmas) {
+  CaseAnnotationsSolution few = solutionWith({});
+  few.result.solution->degrees_of_freedom = 4;
+  EXPECT_THAT(annotationConcern(few, qualityOf(0.3)).text,
+              HasSubstr("4 degrees of freedom, which cannot confirm their sigmas"));
+  EXPECT_EQ(annotationConcern(few, qualityOf({})).text, "");
+}
+
 /// Three of eight mask each other: none stands out alone.
 TEST(AnnotationConcern, MaskedErrors_AreNamedByTheRobustSolution) {
   const std::map<std::size_t, double> errors_px = {{1, 8.0}, {4, -7.0}};
@@ -67,7 +75,8 @@ TEST(AnnotationConcern, MaskedErrors_AreNamedByTheRobustSolution) {
   const AnnotationConcern robust = annotationConcern(solutionWith(errors_px, true), qualityOf(0.3));
   EXPECT_TRUE(robust.robust);
   EXPECT_THAT(robust.suspects, both);
-  EXPECT_EQ(robust.text, "") << "the others fit";
+  EXPECT_THAT(robust.text, StartsWith("The annotations have 5 degrees of freedom"))
+      << "the others fit, but are few";
 }
 
 }  // namespace

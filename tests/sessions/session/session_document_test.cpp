@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "sessions/io/files/errors.h"
@@ -438,20 +439,132 @@ TEST(Journal, OfVersion1_IsOffered) {
   EXPECT_FALSE(std::filesystem::exists(edited.folder / "s.journal"));
 }
 
-TEST_F(SessionDocumentTest, Save_WhenTheJournalIsGone_StillSaves) {
+TEST_F(SessionDocumentTest, Save_WhenAnotherProgramChangedTheJournal_StillSaves) {
   SessionDocument document = SessionDocument::create(file, first);
   document.apply(edited(first, 1), "Edit 1");
   folder.write("s.journal", "by another program");
   EXPECT_THAT(folder.message([&] { document.apply(edited(first, 2), "Edit 2"); }),
               HasSubstr("another program has changed it"));
   EXPECT_EQ(folder.read("s.journal"), "by another program");
-  std::filesystem::remove(folder / "s.journal");
-  EXPECT_THROW(document.apply(edited(first, 2), "Edit 2"), OutputError);
   document.save();
   document.apply(edited(first, 2), "Edit 2");
   EXPECT_TRUE(readSessionFile(file).session == edited(first, 1));
   { const SessionDocument moved = std::move(document); }
   EXPECT_TRUE(SessionDocument::open(file).recovery()->session == edited(first, 2));
+}
+
+TEST_F(SessionDocumentTest, JournalThatAnotherProgramRemoved_IsWrittenAgainWithAllEdits) {
+  {
+    SessionDocument document = SessionDocument::create(file, first);
+    for (const int number : {1, 2}) document.apply(edited(first, number), "Edit");
+    std::filesystem::remove(folder / "s.journal");
+    for (const int number : {3, 4})
+      document.apply(edited(first, number), "Edit " + std::to_string(number));
+  }
+  const SessionDocument document = SessionDocument::open(file);
+  ASSERT_TRUE(document.recovery());
+  EXPECT_TRUE(document.recovery()->session == edited(first, 4));
+  EXPECT_THAT(document.recovery()->edits,
+              ElementsAre("Edits before the journal was removed", "Edit 3", "Edit 4"));
+}
+
+/// Another session, with unsaved edits of a killed program.
+struct SaveAsOver : SessionDocumentTest {
+  const std::filesystem::path source = folder / "source.json";
+  const Session second = sessionOf("second");
+  std::string file_text, journal;
+
+  SaveAsOver() {
+    leaveUnsaved(2);
+    std::filesystem::remove(folder / "s.lock");
+    file_text = folder.read("s.json");
+    journal = folder.read("s.journal");
+    SessionDocument::create(source, second);
+  }
+};
+
+TEST_F(SaveAsOver, WhenItCannotBeWritten_LeavesFileAndJournalOfTheOther) {
+  const std::string said = inChild([&] {
+    SessionDocument document = SessionDocument::open(source);
+    limitFileSize(file_text.size() / 2);
+    return folder.message([&] { document.saveAs(file); });
+  });
+  EXPECT_EQ(said, "cannot write s.json: File too large");
+  EXPECT_EQ(folder.read("s.json"), file_text);
+  EXPECT_EQ(folder.read("s.journal"), journal);
+  EXPECT_TRUE(SessionDocument::open(file).recovery()->session == edited(first, 2));
+}
+
+TEST_F(SaveAsOver, SetsTheJournalOfTheOtherAside) {
+  SessionDocument document = SessionDocument::open(source);
+  document.saveAs(file);
+  EXPECT_TRUE(document.session() == second);
+  EXPECT_EQ(folder.read("s.journal.aside-1"), journal);
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+}
+
+TEST_F(SaveAsOver, KilledBeforeTheJournalIsSetAside_IsTheNewSession) {
+  writeSessionFile(file, second);
+  const SessionDocument document = SessionDocument::open(file);
+  EXPECT_TRUE(document.session() == second);
+  EXPECT_FALSE(document.recovery());
+  EXPECT_EQ(folder.read("s.journal.aside-1"), journal);
+}
+
+/// Two programs create the same file; while the second waits for the lock, the first ends.
+TEST_F(SessionDocumentTest, Create_WhileAnotherProgramCreatesTheFile_LeavesItsSession) {
+  const std::string text = sessionText(sessionOf("other"), file);
+  for (int round = 0; round < 20; ++round) {
+    std::filesystem::remove(file);
+    auto lock = std::make_unique<FileLock>(lockFileOf(file));
+    std::string said;
+    std::thread second(
+        [&] { said = folder.message([&] { SessionDocument::create(file, first); }); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    folder.write("s.json", text);
+    lock.reset();
+    second.join();
+    EXPECT_THAT(said, testing::AnyOf(HasSubstr("the file exists"), HasSubstr("is open already")));
+    ASSERT_EQ(folder.read("s.json"), text) << "round " << round;
+  }
+}
+
+/// The same session by another name.
+struct LinkedSession : SessionDocumentTest {
+  const std::filesystem::path link = folder / "elsewhere/link.json";
+  LinkedSession() {
+    SessionDocument::create(file, first);
+    std::filesystem::create_directory(link.parent_path());
+    std::filesystem::create_symlink("../s.json", link);
+  }
+};
+
+TEST_F(LinkedSession, IsOpenForOneProgramByBothNames) {
+  SessionDocument document = SessionDocument::open(link);
+  EXPECT_EQ(document.file(), std::filesystem::canonical(file));
+  EXPECT_TRUE(document.session() == first) << "its inputs are where the file is";
+  EXPECT_THAT(SessionDocument::open(file).readOnlyReason(), HasSubstr("it is open already"));
+  EXPECT_THAT(SessionDocument::open(link).readOnlyReason(), HasSubstr("it is open already"));
+  document.apply(edited(first, 1), "Edit");
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.journal"));
+  document.saveAs(file);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_FALSE(document.modified());
+  EXPECT_TRUE(readSessionFile(link).session == edited(first, 1));
+}
+
+TEST_F(LinkedSession, UnsavedEdits_AreOfferedByBothNames) {
+  { SessionDocument::open(link).apply(edited(first, 1), "Edit"); }
+  EXPECT_TRUE(SessionDocument::open(file).recovery());
+  EXPECT_TRUE(SessionDocument::open(link).recovery());
+}
+
+TEST_F(LinkedSession, LinkWithoutAFile_IsTheNameOfItsTarget) {
+  std::filesystem::create_symlink("t.json", folder / "link-to-t.json");
+  SessionDocument document = SessionDocument::open(file);
+  document.saveAs(folder / "link-to-t.json");
+  EXPECT_EQ(document.file(), std::filesystem::canonical(folder / "t.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "t.lock"));
 }
 
 TEST_F(SessionDocumentTest, AnEditWritesWhatItChangesAlone) {
@@ -535,6 +648,98 @@ TEST(SessionHistory, ARemovedCaseComesBackWithItsRunAndLaterRunsAndTheViewStay) 
   EXPECT_EQ(document.session().view.case_id, "a");
   history.redo();
   EXPECT_EQ(document.session().lastRunOf("b"), nullptr);
+}
+
+/// A session of two cases with a run each, whose traces are in its folder of runs.
+struct SessionWithTraces : testing::Test {
+  Random random = randomFor("traces");
+  const TemporaryFolder folder;
+  const std::filesystem::path untitled = folder / "untitled/u.json";
+  const std::filesystem::path named = folder / "named/s.json";
+  std::optional<SessionDocument> document;
+
+  SessionWithTraces() {
+    std::filesystem::create_directories(named.parent_path());
+    std::filesystem::create_directories(untitled.parent_path());
+    Session session = withCase(withCase({}, randomCase(random, "a")), randomCase(random, "b"));
+    for (const char* id : {"a", "b"}) session.runs.push_back(storedRun(id));
+    document = SessionDocument::create(untitled, session);
+  }
+
+  RunRecord storedRun(const std::string& id) {
+    RunRecord run = randomRun(random, id);
+    run.file = runFileOf(document ? document->file() : untitled, run.digest);
+    folder.write(run.file.lexically_relative(folder.path()).string(), "trace " + run.digest);
+    return run;
+  }
+  void removeCase(SessionHistory& history, const std::string& id) const {
+    history.perform(withoutCase(document->session(), id), "Remove " + id);
+  }
+  void removeUntitled() const { std::filesystem::remove_all(untitled.parent_path()); }
+
+  /// The traces of the session's runs, in its own folder: "a b".
+  std::string casesWithTraces() const {
+    std::string cases;
+    for (const RunRecord& run : document->session().runs) {
+      EXPECT_EQ(run.file, runFileOf(document->file(), run.digest));
+      const std::string name = run.file.lexically_relative(folder.path()).string();
+      if (folder.read(name) == "trace " + run.digest)
+        cases += (cases.empty() ? "" : " ") + run.case_id;
+    }
+    return cases;
+  }
+};
+
+TEST_F(SessionWithTraces, UndoAfterSaveAs_RestoresRunsWithTheirTraces) {
+  SessionHistory history(*document);
+  removeCase(history, "b");
+  history.saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a");
+  history.undo();
+  EXPECT_EQ(casesWithTraces(), "a b");
+  history.redo();
+  EXPECT_EQ(casesWithTraces(), "a");
+}
+
+TEST_F(SessionWithTraces, UndoAfterSaveAs_OfAnEditBefore_RestoresRunsWithTheirTraces) {
+  SessionHistory history(*document);
+  removeCase(history, "a");
+  history.undo();
+  removeCase(history, "b");
+  removeCase(history, "a");
+  history.undo();
+  history.saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a");
+  removeCase(history, "a");
+  EXPECT_EQ(casesWithTraces(), "");
+  history.undo();
+  history.undo();
+  EXPECT_EQ(casesWithTraces(), "a b");
+}
+
+TEST_F(SessionWithTraces, RedoAfterSaveAs_RestoresRunsWithTheirTraces) {
+  SessionHistory history(*document);
+  history.perform(withCase(document->session(), randomCase(random, "c")), "Add c");
+  Session session = document->session();
+  session.runs.push_back(storedRun("c"));
+  document->apply(session, "Run c");
+  history.undo();
+  history.saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a b");
+  history.redo();
+  EXPECT_EQ(casesWithTraces(), "a b c");
+}
+
+TEST_F(SessionWithTraces, SaveAs_NamesTheCopiesOfItsTraces) {
+  document->saveAs(named);
+  removeUntitled();
+  EXPECT_EQ(casesWithTraces(), "a b");
+  document->saveAs(folder / "named/t.json");
+  std::filesystem::remove_all(folder / "named/s.runs");
+  EXPECT_EQ(casesWithTraces(), "a b");
 }
 
 TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
