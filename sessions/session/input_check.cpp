@@ -124,7 +124,8 @@ bool hasSha256(const fs::path& file, const std::string& sha256) {
 /// Files below the session's folder, by name.
 class Search {
  public:
-  explicit Search(fs::path folder) : folder_(std::move(folder)) {}
+  Search(fs::path folder, std::stop_token stop)
+      : folder_(std::move(folder)), stop_(std::move(stop)) {}
 
   std::optional<fs::path> find(const Dependency& dependency) {
     fs::path end;
@@ -132,31 +133,35 @@ class Search {
     for (auto step = steps.rbegin(); step != steps.rend() && step->has_filename(); ++step) {
       if (*step == "/") break;
       end = end.empty() ? *step : *step / end;
-      if (hasSha256(folder_ / end, dependency.sha256)) return folder_ / end;
+      if (is(folder_ / end, dependency)) return folder_ / end;
     }
     const auto [first, last] = files().equal_range(dependency.file.filename());
     for (auto place = first; place != last; ++place)
-      if (hasSha256(place->second, dependency.sha256)) return place->second;
+      if (is(place->second, dependency)) return place->second;
     for (const auto& [name, place] : files())  // renamed
-      if (name.extension() == dependency.file.extension() && hasSha256(place, dependency.sha256))
-        return place;
+      if (name.extension() == dependency.file.extension() && is(place, dependency)) return place;
     return std::nullopt;
   }
 
  private:
+  bool is(const fs::path& file, const Dependency& dependency) const {
+    return !stop_.stop_requested() && hasSha256(file, dependency.sha256);
+  }
   const std::multimap<fs::path, fs::path>& files() {
     if (listed_) return files_;
     listed_ = true;
     std::error_code error;
     constexpr auto kSkip = fs::directory_options::skip_permission_denied;
     auto entry = fs::recursive_directory_iterator(folder_, kSkip, error);
-    for (; !error && entry != fs::end(entry) && files_.size() < kMaxSearched;
+    for (; !error && entry != fs::end(entry) && files_.size() < kMaxSearched &&
+           !stop_.stop_requested();
          entry.increment(error))
       files_.emplace(entry->path().filename(), entry->path());
     return files_;
   }
 
   fs::path folder_;
+  std::stop_token stop_;
   bool listed_ = false;
   std::multimap<fs::path, fs::path> files_;
 };
@@ -207,11 +212,12 @@ void acceptFrames(SessionCase& session_case) {
 
 }  // namespace
 
-std::vector<Finding> checkInputs(const Session& session) {
+std::vector<Finding> checkInputs(const Session& session, const std::stop_token& stop) {
   std::map<fs::path, FileState> states;  // each file is hashed once, however many cases share it
   std::vector<Finding> findings;
   for (const auto& session_case : session.cases)
     for (const Dependency& dependency : dependenciesOf(*session_case)) {
+      if (stop.stop_requested()) return findings;
       const auto [known, added] = states.try_emplace(dependency.file);
       if (added) known->second = stateOf(dependency.file);
       auto found = findingOf(session_case->id, dependency, known->second);
@@ -229,8 +235,9 @@ std::vector<Finding> checkInputs(const Session& session) {
   return findings;
 }
 
-std::vector<Relink> findMissing(const Session& session, const fs::path& session_file) {
-  Search search(fs::absolute(session_file).lexically_normal().parent_path());
+std::vector<Relink> findMissing(const Session& session, const fs::path& session_file,
+                                const std::stop_token& stop) {
+  Search search(fs::absolute(session_file).lexically_normal().parent_path(), stop);
   std::vector<Relink> relinks;
   std::set<fs::path> seen;
   std::error_code error;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,9 @@ struct Finding {
 };
 
 /// Reads every file that the session names, each once, and compares its hash. Findings are reported
-/// and nothing is changed; a run of a case rejects changed inputs as well.
-std::vector<Finding> checkInputs(const Session& session);
+/// and nothing is changed; a run of a case rejects changed inputs as well. After a stop, which
+/// takes effect between two files, the findings are incomplete.
+std::vector<Finding> checkInputs(const Session& session, const std::stop_token& stop = {});
 
 /// A moved file and its new path.
 struct Relink {
@@ -38,8 +40,9 @@ struct Relink {
 
 /// Searches missing files below the folder of the session: first at the ends of their paths, then
 /// everywhere by name (at most 100000 entries), then by extension. Only a file with the right hash
-/// counts.
-std::vector<Relink> findMissing(const Session& session, const std::filesystem::path& session_file);
+/// counts. After a stop, which takes effect between two files, the list is incomplete.
+std::vector<Relink> findMissing(const Session& session, const std::filesystem::path& session_file,
+                                const std::stop_token& stop = {});
 
 /// The same session with each missing path replaced by the found one; hashes stay.
 Session relinked(const Session& session, const std::vector<Relink>& relinks);

@@ -53,10 +53,9 @@ std::vector<std::string> casesOfRig(const Session& session, const std::string& c
 const RunRecord* ownRunOf(const Session& session, const std::string& other,
                           const std::string& case_id) {
   const RunRecord* last = nullptr;
-  for (const RunRecord& run : session.runs) {
-    if (run.case_id != other) continue;
-    const auto together = run.together ? casesOf(*run.together) : std::vector<std::string>();
-    if (std::ranges::find(together, case_id) == together.end()) last = &run;
+  for (const RunRecord* run : session.runs.findAll(other)) {
+    const auto together = run->together ? casesOf(*run->together) : std::vector<std::string>();
+    if (std::ranges::find(together, case_id) == together.end()) last = run;
   }
   return last;
 }

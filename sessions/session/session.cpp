@@ -12,6 +12,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_fields.h"
+#include "sessions/session/session_difference.h"
 #include "sessions/session/session_file.h"
 
 namespace boresight::sessions {
@@ -37,42 +38,6 @@ void put(const std::string& id, Value value, BlockMap<std::string, SharedValue<V
   else
     values.insert_or_assign(id, std::move(value));
 }
-
-/// Ids of the cases of which something differs.
-class DifferingCases {
- public:
-  DifferingCases(const Session& before, const Session& after) {
-    addOf(before.cases, after.cases);
-    addOf(before.decisions, after.decisions);
-    addKeysOf(before.annotations, after.annotations);
-    addKeysOf(before.rounds, after.rounds);
-  }
-  const std::set<std::string>& ids() const { return ids_; }
-
- private:
-  template <class List>
-  void addOf(const List& before, const List& after) {
-    const auto left = [&](std::size_t i) { ids_.insert(CaseIdOf()(before[i])); };
-    const auto entered = [&](std::size_t, const auto& element) {
-      ids_.insert(CaseIdOf()(element));
-    };
-    List::forEachDifference(
-        before, after,
-        [&](std::size_t i, const auto& element) {
-          left(i);
-          entered(i, element);
-        },
-        left, entered);
-  }
-  template <class Map>
-  void addKeysOf(const Map& before, const Map& after) {
-    Map::forEachDifference(before, after, [this](const auto* from, const auto* to) {
-      ids_.insert(from ? (*from)->first : (*to)->first);
-    });
-  }
-
-  std::set<std::string> ids_;
-};
 
 }  // namespace
 
@@ -333,10 +298,10 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
 
 std::vector<std::string> changedCases(const Session& before, const Session& after) {
   std::vector<std::string> changed;
-  const DifferingCases differing(before, after);
-  if (differing.ids().empty()) return changed;
+  const std::set<std::string> differing = differenceOf(before, after).cases;
+  if (differing.empty()) return changed;
   for (const auto& session_case : after.cases) {
-    if (!differing.ids().contains(session_case->id)) continue;
+    if (!differing.contains(session_case->id)) continue;
     const SessionCase* former = before.findCase(session_case->id);
     const auto& id = session_case->id;
     const bool kept = former && *former == *session_case &&

@@ -14,38 +14,12 @@
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
+#include "tests/support/many_cases.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
 
 using namespace boresight;  // NOLINT
-
-/// A run of a case that does not exist on the disk.
-sessions::RunRecord runOf(const std::string& case_id, std::int64_t number) {
-  sessions::RunRecord run;
-  run.case_id = case_id;
-  run.digest = sessions::sha256Text(case_id + " " + std::to_string(number));
-  run.file = "/runs/" + run.digest + ".trace";
-  run.status = "converged";
-  run.version = "2.0.0";
-  run.time = "2026-01-31T23:59:59Z";
-  run.inputs_sha256 = run.options_sha256 = run.digest;
-  return run;
-}
-
-sessions::Session sessionOf(const std::filesystem::path& dataset, std::int64_t count) {
-  const sessions::Session few = sessions::makeSession(dataset);
-  sessions::Session many = few;
-  many.cases.clear();
-  for (std::int64_t i = 0; i < count; ++i) {
-    sessions::SessionCase session_case = *few.cases[static_cast<std::size_t>(i) % few.cases.size()];
-    session_case.id = "case-" + std::to_string(i);
-    session_case.camera_from_station_seed.translation_m.x() += 1e-7 * static_cast<double>(i);
-    many.cases.push_back(session_case);
-    many.runs.push_back(runOf(session_case.id, 0));
-  }
-  return many;
-}
 
 /// The same session with the seed of a case moved.
 sessions::Session withMovedSeed(const sessions::Session& session, const std::string& id) {
@@ -83,8 +57,8 @@ int main(int argc, char** argv) {
   const auto each = [&](const char* name, auto work) {
     benchmark::RegisterBenchmark(name,
                                  [&dataset, work](benchmark::State& state) {
-                                   const sessions::Session session =
-                                       sessionOf(dataset, state.range(0));
+                                   const sessions::Session session = test::manyCases(
+                                       sessions::makeSession(dataset), state.range(0));
                                    work(state, session);
                                  })
         ->Arg(2000)
@@ -113,7 +87,8 @@ int main(int argc, char** argv) {
     OpenSession open(session);
     for (auto _ : state) {
       const std::string id = open.nextCase();
-      open.document.apply(sessions::withRun(open.document.session(), runOf(id, open.edits)), "Run");
+      open.document.apply(
+          sessions::withRun(open.document.session(), test::runWithoutFile(id, open.edits)), "Run");
     }
   });
   each("save after an edit", [](benchmark::State& state, const sessions::Session& session) {

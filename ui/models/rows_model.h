@@ -99,6 +99,11 @@ class RowsModel : public QAbstractTableModel {
     if (before > 0) Q_EMIT dataChanged(index(0, 0), index(before - 1, columnCount() - 1));
   }
 
+  void setRow(int row, Row value) {
+    rows_[static_cast<std::size_t>(row)] = std::move(value);
+    Q_EMIT dataChanged(index(row, 0), index(row, columnCount() - 1));
+  }
+
   /// Changes rows in place when `key` is equal for all rows.
   template <class Key>
   void setRowsByKey(std::vector<Row> rows, Key&& key) {

@@ -38,15 +38,20 @@ QImage pictureOf(const sessions::LoadedCase& loaded, const QueueRow& row, const 
                                           size_px.height()));
 }
 
-/// The row of a case from the session alone.
+/// The row of a case from its run alone. Whether a decision holds is not looked at.
 QueueRow plainRow(const sessions::Session& session, const std::string& id) {
   QueueRow row;
   row.case_id = id;
+  const sessions::Decision* decision = session.decisionOn(id);
   if (const sessions::RunRecord* run = session.lastRunOf(id)) {
     row.run_digest = run->digest;
+    row.review_state = run->status == "converged" ? sessions::ReviewState::kConverged
+                                                  : sessions::ReviewState::kFailed;
     if (run->status != "converged") row.trouble = "the run failed: " + run->status;
+    row.group = row.trouble.empty() ? sessions::QueueGroup::kOpen : sessions::QueueGroup::kNoPose;
   }
-  sessions::takeReviewStatus(session, row);
+  if (decision && decision->verdict != sessions::Verdict::kReopened)
+    row.group = sessions::QueueGroup::kDecided;
   return row;
 }
 
@@ -82,20 +87,91 @@ DifferenceEntry comparedEntry(const sessions::Session& session, const std::strin
   }
 }
 
+std::string pairKey(const sessions::Session& session, const std::string& id) {
+  const auto pair = sessions::lastTwoRuns(session, id);
+  return sessions::queueKey(session, id) + ' ' + (pair ? pair->before->digest : std::string());
+}
+
 }  // namespace
+
+/// A row is checked again where the key of its inputs differs; its review status is always taken.
+CaseWork<QueueController::Checked> QueueController::checking(const QSize& thumbnail_px) {
+  using sessions::Session;
+  return {.listed = {},
+          .first =
+              [](const Session& session, const std::string& id) {
+                return Checked{plainRow(session, id), {}, {}};
+              },
+          .glance =
+              [](const Session& session, const std::string& id, Checked former) {
+                if (former.key.empty()) former.row = plainRow(session, id);
+                sessions::takeReviewStatus(session, former.row);
+                const bool same =
+                    !former.key.empty() && former.key == sessions::queueKey(session, id);
+                return std::pair(std::move(former), same);
+              },
+          .make =
+              [thumbnail_px](const Session& session, const std::string& id, Checked former) {
+                std::string key = sessions::queueKey(session, id);
+                if (former.key == key) {
+                  sessions::takeReviewStatus(session, former.row);
+                  return former;
+                }
+                QueueEntry entry = checkedEntry(session, id, thumbnail_px);
+                return Checked{std::move(entry.row), entry.thumbnail, std::move(key)};
+              },
+          .rank =
+              [](const Checked& checked) {
+                return WaitingRank(static_cast<int>(checked.row.group), -checked.row.failed);
+              }};
+}
+
+CaseWork<QueueController::Compared> QueueController::comparing() {
+  using sessions::Session;
+  return {.listed =
+              [](const Session& session, const std::string& id) {
+                return sessions::lastTwoRuns(session, id).has_value();
+              },
+          .first =
+              [](const Session&, const std::string& id) {
+                return Compared{{id}, {}};
+              },
+          .glance =
+              [](const Session& session, const std::string& id, Compared former) {
+                const bool same = !former.key.empty() && former.key == pairKey(session, id);
+                return std::pair(std::move(former), same);
+              },
+          .make =
+              [](const Session& session, const std::string& id, Compared former) {
+                std::string key = pairKey(session, id);
+                if (former.key == key) return former;
+                return Compared{comparedEntry(session, id), std::move(key)};
+              },
+          .rank = {}};
+}
 
 QueueController::QueueController(Document& document, const QSize& thumbnail_px)
     : document_(document),
-      rows_(
-          [thumbnail_px](const sessions::Session& session, const std::string& id) {
-            return checkedEntry(session, id, thumbnail_px);
-          },
-          [this] { Q_EMIT changed(); }),
-      differences_(&comparedEntry, [this] { Q_EMIT changed(); }) {
-  rows_.setOrder([this](const Rows::Entry& a, const Rows::Entry& b) {
-    return sessions::moreTrouble(rowOf(a), rowOf(b));
+      rows_(checking(thumbnail_px),
+            [this](const std::vector<std::size_t>* places) {
+              if (places)
+                Q_EMIT queueRowsChanged(*places);
+              else
+                Q_EMIT changed();
+            }),
+      differences_(comparing(), [this](const std::vector<std::size_t>* places) {
+        if (places)
+          Q_EMIT differenceRowsChanged(*places);
+        else
+          Q_EMIT changed();
+      }) {
+  connect(&document_, &Document::opened, this, [this] {
+    rows_.clear();
+    differences_.clear();
+    Q_EMIT changed();
+    follow();
   });
-  connectEach(document_, this, &QueueController::follow, &Document::opened, &Document::changed);
+  connect(&document_, &Document::changed, this, &QueueController::follow);
 }
 
 void QueueController::setLookedAt(List list) {
@@ -113,48 +189,39 @@ void QueueController::fillVisible() {
 }
 
 void QueueController::follow() {
-  if (looked_at_ == List::kNone) return;
-  const sessions::Session& session = document_.session();
-  Rows::Keys rows;
-  Differences::Keys pairs;
-  for (const auto& session_case : session.cases) {
-    const std::string key = sessions::queueKey(session, session_case->id);
-    rows.emplace_back(session_case->id, key);
-    if (const auto pair = sessions::lastTwoRuns(session, session_case->id))
-      pairs.emplace_back(session_case->id, key + ' ' + pair->before->digest);
-  }
-  rows_.follow(session, rows);
-  differences_.follow(session, pairs);
+  if (looked_at_ == List::kTrouble) rows_.follow(document_.session());
+  if (looked_at_ == List::kDifferences) differences_.follow(document_.session());
 }
 
-QueueRow QueueController::rowOf(const Rows::Entry& entry) const {
-  if (!entry.value) return plainRow(document_.session(), entry.id);
-  QueueRow row = entry.value->row;
-  sessions::takeReviewStatus(document_.session(), row);
-  return row;
+QueueEntry QueueController::queueAt(std::size_t place) const {
+  const Checked& checked = rows_.value(place);
+  return {checked.row, checked.thumbnail, rows_.isCurrent(place)};
 }
 
 std::vector<QueueEntry> QueueController::queue() const {
   std::vector<QueueEntry> queue;
-  for (const Rows::Entry& entry : rows_.entries())
-    queue.push_back({rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
+  for (std::size_t place = 0; place < rows_.size(); ++place) queue.push_back(queueAt(place));
   return queue;
+}
+
+const DifferenceEntry& QueueController::differenceAt(std::size_t place) const {
+  return differences_.value(place).entry;
 }
 
 std::vector<DifferenceEntry> QueueController::differences() const {
   std::vector<DifferenceEntry> differences;
-  for (const Differences::Entry& entry : differences_.entries())
-    differences.push_back(entry.value.value_or(DifferenceEntry{entry.id}));
+  for (std::size_t place = 0; place < differences_.size(); ++place)
+    differences.push_back(differenceAt(place));
   return differences;
 }
 
 int QueueController::doneCount() const {
-  return looked_at_ == List::kDifferences ? differences_.currentCount() : rows_.currentCount();
+  return static_cast<int>(looked_at_ == List::kDifferences ? differences_.currentCount()
+                                                           : rows_.currentCount());
 }
 
 int QueueController::count() const {
-  return static_cast<int>(looked_at_ == List::kDifferences ? differences_.entries().size()
-                                                           : rows_.entries().size());
+  return static_cast<int>(looked_at_ == List::kDifferences ? differences_.size() : rows_.size());
 }
 
 bool QueueController::isBusy() const { return rows_.isBusy() || differences_.isBusy(); }

@@ -192,6 +192,12 @@ class CaseWithTrouble final : public QStyledItemDelegate {
 
 DifferencesModel::DifferencesModel() : RowsModel(differenceColumns()) {}
 
+int DifferencesModel::rowOf(const QString& id) const {
+  return firstRow([wanted = id.toStdString()](const DifferenceEntry& entry) {
+    return entry.case_id == wanted;
+  });
+}
+
 QVariant DifferencesModel::look(const DifferenceEntry& entry, int column, int role) const {
   const bool tip = role == Qt::ToolTipRole;
   if (entry.difference) return tip ? tableHtml(*entry.difference) : QVariant();
@@ -251,6 +257,20 @@ QueuePanel::QueuePanel(Document& document)
   connect(ui_.queueHalt, &QPushButton::clicked, this,
           [this] { controller_.setHalted(!controller_.isHalted()); });
   connect(&controller_, &QueueController::changed, this, &QueuePanel::showEntries);
+  connect(&controller_, &QueueController::queueRowsChanged, this,
+          [this](const std::vector<std::size_t>& places) {
+            const QScopedValueRollback following(following_, true);
+            for (const std::size_t place : places)
+              model_.setRow(static_cast<int>(place), controller_.queueAt(place));
+            showRows();
+          });
+  connect(&controller_, &QueueController::differenceRowsChanged, this,
+          [this](const std::vector<std::size_t>& places) {
+            const QScopedValueRollback following(following_, true);
+            for (const std::size_t place : places)
+              differences_.setRow(static_cast<int>(place), controller_.differenceAt(place));
+            showRows();
+          });
   showEntries();
 }
 
@@ -324,6 +344,11 @@ void QueuePanel::showEntries() {
       differences_.rowCount() > 0
           ? tr("No matching cases.")
           : tr("No case has two runs: change an option and run again (Ctrl+F5)."));
+  showRows();
+}
+
+/// After rows were filled or changed.
+void QueuePanel::showRows() {
   chooseShown();
   fitColumns();
   showProgress();
@@ -395,13 +420,13 @@ void QueuePanel::showChosen() {
 /// A shown case that is not listed leaves no row chosen.
 void QueuePanel::chooseShown() {
   const QScopedValueRollback following(following_, true);
-  for (QTableView* each : {ui_.queue, ui_.differences}) {
-    const QAbstractItemModel& model = *each->model();
-    const QModelIndex shown =
-        model.match(model.index(0, 0), Qt::DisplayRole, current_, 1, Qt::MatchExactly).value(0);
-    if (shown != each->currentIndex().siblingAtColumn(0) || !shown.isValid())
-      each->setCurrentIndex(shown);
-  }
+  const auto choose = [](QTableView& view, const QModelIndex& shown) {
+    if (shown != view.currentIndex().siblingAtColumn(0) || !shown.isValid())
+      view.setCurrentIndex(shown);
+  };
+  choose(*ui_.queue, filter_.mapFromSource(model_.index(model_.rowOf(current_), 0)));
+  choose(*ui_.differences,
+         differences_filter_.mapFromSource(differences_.index(differences_.rowOf(current_), 0)));
 }
 
 QString QueuePanel::nextOpen() const {

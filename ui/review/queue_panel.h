@@ -22,6 +22,9 @@ class DifferencesModel : public RowsModel<DifferenceEntry> {
 
   DifferencesModel();
 
+  /// -1 when there is none.
+  int rowOf(const QString& id) const;
+
  protected:
   QVariant look(const DifferenceEntry& entry, int column, int role) const override;
 };
@@ -109,6 +112,7 @@ class QueuePanel : public QWidget {
   void step(int rows);
   void lookAt();
   void showEntries();
+  void showRows();
   void showProgress();
   void fitColumns();
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/review_controller.h"
 
+#include <algorithm>
 #include <exception>
-#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -189,10 +189,9 @@ sessions::ReviewStatus ReviewController::reviewStatus() const {
 }
 
 std::vector<const sessions::Decision*> ReviewController::history() const {
-  std::vector<const sessions::Decision*> decisions;
-  const std::string id = caseId();
-  for (const sessions::Decision& decision : std::views::reverse(document_.session().decisions))
-    if (decision.case_id == id) decisions.push_back(&decision);
+  std::vector<const sessions::Decision*> decisions =
+      document_.session().decisions.findAll(caseId());
+  std::ranges::reverse(decisions);
   return decisions;
 }
 

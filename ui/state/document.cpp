@@ -256,12 +256,8 @@ QString Document::redoText() const {
   return history_ ? QString::fromStdString(history_->redoText()) : QString();
 }
 
-QStringList Document::editTexts() const {
-  QStringList texts;
-  if (!history_) return texts;
-  for (const sessions::SessionCommand& command : history_->commands())
-    texts << QString::fromStdString(command.text);
-  return texts;
+QString Document::editText(std::size_t i) const {
+  return QString::fromStdString(history_->commands()[i].text);
 }
 
 bool Document::goToEdit(std::size_t done) {

@@ -71,8 +71,9 @@ class Document : public QObject {
   bool canRedo() const { return history_ && history_->canRedo(); }
   QString undoText() const;
   QString redoText() const;
-  /// All edits, the undone ones last; the first editsDone() are in effect.
-  QStringList editTexts() const;
+  /// Of all edits, the undone ones last; the first editsDone() are in effect.
+  std::size_t editCount() const { return history_ ? history_->commands().size() : 0; }
+  QString editText(std::size_t i) const;
   std::size_t editsDone() const { return history_ ? history_->done() : 0; }
   /// Undoes or redoes until this number of edits is in effect, as far as they can be written.
   bool goToEdit(std::size_t done);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <exception>
+#include <memory>
+#include <utility>
 
 #include <QCoreApplication>
 
@@ -33,10 +35,10 @@ QString detailOf(const sessions::Session& session, const std::string& id,
 /// Options that cannot be read are said where they are shown.
 bool isStale(const sessions::Session& session,
              const sessions::SharedValue<sessions::SessionCase>& shared_value,
-             const std::filesystem::path& file, sessions::StaleRuns& known) {
+             sessions::StaleRuns& known) {
   const sessions::RunRecord* run = session.lastRunOf(shared_value->id);
   try {
-    return run && known.isStale(*run, shared_value, session, file);
+    return run && known.isStale(*run, shared_value, session, "session");
   } catch (const std::exception&) {
     return false;
   }
@@ -44,21 +46,39 @@ bool isStale(const sessions::Session& session,
 
 }  // namespace
 
-std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running,
-                              const std::filesystem::path& file, sessions::StaleRuns& known) {
-  std::vector<CaseRow> rows;
-  for (const auto& session_case : session.cases) {
-    CaseRow row;
-    row.id = QString::fromStdString(session_case->id);
-    row.station = QString::fromStdString(session_case->station);
-    const sessions::ReviewStatus status = sessions::reviewStatusOf(session, session_case->id);
-    row.state = row.id == running ? CaseState::kRunning : caseStateOf(status.state);
-    const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
-    row.stale = !status.outdated.empty() || (of_run && isStale(session, session_case, file, known));
-    row.detail = detailOf(session, session_case->id, status);
-    rows.push_back(std::move(row));
-  }
-  return rows;
+CaseRow caseRow(const sessions::Session& session, const std::string& id,
+                sessions::StaleRuns& known) {
+  const sessions::SharedValue<sessions::SessionCase>& session_case = *session.cases.find(id);
+  CaseRow row;
+  row.id = QString::fromStdString(id);
+  row.station = QString::fromStdString(session_case->station);
+  const sessions::ReviewStatus status = sessions::reviewStatusOf(session, id);
+  row.state = caseStateOf(status.state);
+  const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
+  row.stale = !status.outdated.empty() || (of_run && isStale(session, session_case, known));
+  row.detail = detailOf(session, id, status);
+  return row;
+}
+
+CaseWork<CaseRow> caseRowWork() {
+  using sessions::Session;
+  return {.listed = {},
+          .first =
+              [](const Session& session, const std::string& id) {
+                CaseRow row;
+                row.id = QString::fromStdString(id);
+                row.station = QString::fromStdString(session.findCase(id)->station);
+                return row;
+              },
+          .glance =
+              [](const Session& session, const std::string& id, const CaseRow&) {
+                sessions::StaleRuns of_one;
+                return std::pair(caseRow(session, id, of_one), true);
+              },
+          .make = [known = std::make_shared<sessions::StaleRuns>()](
+                      const Session& session, const std::string& id,
+                      const CaseRow&) { return caseRow(session, id, *known); },
+          .rank = {}};
 }
 
 namespace {
@@ -94,22 +114,33 @@ std::optional<Pose> resultOf(const sessions::RunRecord& run) {
 CaseDetails::CaseDetails(TaskRunner& tasks, QObject* parent) : QObject(parent), tasks_(tasks) {
   pause_.setSingleShot(true);
   pause_.setInterval(kPause_ms);
-  connect(&pause_, &QTimer::timeout, this, &CaseDetails::changed);
+  connect(&pause_, &QTimer::timeout, this, [this] { Q_EMIT changed(std::exchange(filled_, {})); });
 }
 
 void CaseDetails::setSession(const sessions::Session& session) {
+  const std::set<std::string> ids = sessions::differenceOf(session_, session).cases;
   session_ = session;
-  next_ = 0;
+  if (ids.size() < session.cases.size()) {
+    pictures_.insert(pictures_.end(), ids.begin(), ids.end());
+  } else {  // another session: in its order
+    pictures_.clear();
+    for (const auto& session_case : session.cases) pictures_.push_back(session_case->id);
+  }
+  results_.insert(results_.end(), pictures_.begin(), pictures_.end());
   if (!reading_) readNext();
 }
 
 /// Starts reading the value of a key unless it is known; returns whether it started.
 template <class Value, class Read>
-bool CaseDetails::read(std::map<std::string, Value>& known, const std::string& key, Read make) {
+bool CaseDetails::read(const std::string& id, std::map<std::string, Value>& known,
+                       const std::string& key, Read make) {
+  filled_.insert(id);
+  if (!pause_.isActive()) pause_.start();  // limits the signal to some times per second
   if (known.contains(key)) return false;
-  const auto take = [this, &known, key](Value value) {
+  const auto take = [this, &known, key, id](Value value) {
     known[key] = std::move(value);
-    tellSoon();
+    filled_.insert(id);
+    readNext();
   };
   // What cannot be read is not shown: opening the case reports the reason.
   tasks_.queue([make](const std::stop_token&) { return make(); }, take,
@@ -117,30 +148,35 @@ bool CaseDetails::read(std::map<std::string, Value>& known, const std::string& k
   return true;
 }
 
-void CaseDetails::readNext() {
-  const auto& cases = std::as_const(session_).cases;
-  reading_ = true;
-  for (; next_ < cases.size(); ++next_)
-    if (read(thumbnails_, cases[next_]->image.source.sha256,
-             [image = cases[next_]->image] { return thumbnailOf(image); }))
-      return;
-  for (; next_ < 2 * cases.size(); ++next_) {
-    const sessions::SessionCase& session_case = *cases[next_ - cases.size()];
-    const sessions::RunRecord* run = session_.lastRunOf(session_case.id);
-    if (run && sessions::judgingTruth(session_case) &&
-        read(poses_, run->digest, [run = *run] { return resultOf(run); }))
-      return;
-  }
-  reading_ = false;
-  if (!pause_.isActive()) return;
-  pause_.stop();
-  Q_EMIT changed();
+bool CaseDetails::readPicture(const std::string& id) {
+  const sessions::SessionCase* session_case = session_.findCase(id);
+  return session_case && read(id, thumbnails_, session_case->image.source.sha256,
+                              [image = session_case->image] { return thumbnailOf(image); });
 }
 
-/// Limits the signal to some times per second, and emits it at the end.
-void CaseDetails::tellSoon() {
-  if (!pause_.isActive()) pause_.start();
-  readNext();
+bool CaseDetails::readResult(const std::string& id) {
+  const sessions::SessionCase* session_case = session_.findCase(id);
+  const sessions::RunRecord* run = session_.lastRunOf(id);
+  return session_case && run && sessions::judgingTruth(*session_case) &&
+         read(id, poses_, run->digest, [run = *run] { return resultOf(run); });
+}
+
+bool CaseDetails::readNextOf(std::deque<std::string>& ids,
+                             bool (CaseDetails::*begin)(const std::string&)) {
+  while (!ids.empty()) {
+    const std::string id = ids.front();
+    ids.pop_front();
+    if ((this->*begin)(id)) return true;
+  }
+  return false;
+}
+
+void CaseDetails::readNext() {
+  reading_ = readNextOf(pictures_, &CaseDetails::readPicture) ||
+             readNextOf(results_, &CaseDetails::readResult);
+  if (reading_ || !pause_.isActive()) return;
+  pause_.stop();
+  Q_EMIT changed(std::exchange(filled_, {}));
 }
 
 void CaseDetails::fillErrors(const sessions::SessionCase& session_case, CaseRow& row) const {
@@ -162,14 +198,12 @@ void CaseDetails::fillErrors(const sessions::SessionCase& session_case, CaseRow&
       tr("One sigma of its truth is %1, too large for these errors.").arg(fromText(excess));
 }
 
-void CaseDetails::fill(std::vector<CaseRow>& rows) const {
-  for (CaseRow& row : rows) {
-    const sessions::SessionCase* session_case = session_.findCase(row.id.toStdString());
-    if (!session_case) continue;
-    const auto picture = thumbnails_.find(session_case->image.source.sha256);
-    if (picture != thumbnails_.end()) row.thumbnail = picture->second;
-    fillErrors(*session_case, row);
-  }
+void CaseDetails::fill(CaseRow& row) const {
+  const sessions::SessionCase* session_case = session_.findCase(row.id.toStdString());
+  if (!session_case) return;
+  const auto picture = thumbnails_.find(session_case->image.source.sha256);
+  if (picture != thumbnails_.end()) row.thumbnail = picture->second;
+  fillErrors(*session_case, row);
 }
 
 }  // namespace boresight::ui

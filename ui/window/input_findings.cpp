@@ -6,6 +6,7 @@
 
 #include <QMessageBox>
 
+#include "sessions/session/session_difference.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
 #include "ui/widgets/widgets.h"
@@ -28,10 +29,14 @@ bool sameFiles(const sessions::SessionCase* a, const sessions::SessionCase* b) {
 }
 
 /// The session with these cases and their runs alone.
-sessions::Session partOf(sessions::Session session, const std::set<std::string>& ids) {
-  session.cases.eraseIf([&ids](const auto& each) { return !ids.contains(each->id); });
-  session.runs.eraseIf([&ids](const auto& run) { return !ids.contains(run.case_id); });
-  return session;
+sessions::Session partOf(const sessions::Session& session, const std::set<std::string>& ids) {
+  sessions::Session part;
+  for (const auto& each : session.cases) {
+    if (!ids.contains(each->id)) continue;
+    part.cases.push_back(each);
+    for (const sessions::RunRecord* run : session.runs.findAll(each->id)) part.runs.push_back(*run);
+  }
+  return part;
 }
 
 }  // namespace
@@ -57,17 +62,15 @@ void InputFindings::documentOpened() {
 /// A file that was found to be missing may have been replaced.
 void InputFindings::documentChanged() {
   const sessions::Session& now = parts_.document.session();
+  const sessions::SessionDifference difference = sessions::differenceOf(followed_, now);
   std::set<std::string> ids;
-  for (const auto& each : now.cases) {
-    const sessions::SessionCase* former = followed_.findCase(each->id);
-    if (former != &*each && !sameFiles(former, &*each))
-      ids.insert(each->id);  // shared if unchanged
-  }
+  for (const std::string& id : difference.cases)
+    if (now.findCase(id) && !sameFiles(followed_.findCase(id), now.findCase(id))) ids.insert(id);
   followed_ = now;
   const auto of_removed = [&now](const sessions::Finding& finding) {
     return now.findCase(finding.case_id) == nullptr;
   };
-  if (std::erase_if(findings_, of_removed) > 0) show();
+  if (difference.list && std::erase_if(findings_, of_removed) > 0) show();
   if (!ids.empty()) check(ids);
 }
 
@@ -91,8 +94,8 @@ void InputFindings::checkWhenRead() {
   waits_ = false;
   tasks_.replace(
       checking_,
-      [part = partOf(parts_.document.session(), asked_)](const std::stop_token&) {
-        return sessions::checkInputs(part);
+      [session = parts_.document.session(), ids = asked_](const std::stop_token& stop) {
+        return sessions::checkInputs(partOf(session, ids), stop);
       },
       [this, ids = asked_](const std::vector<sessions::Finding>& findings) { take(ids, findings); },
       [this](const QString& message) {
@@ -161,9 +164,8 @@ void InputFindings::repairFound() {
 void InputFindings::findMoved() {
   tasks_.replace(
       repairing_,
-      [session = parts_.document.session(), file = parts_.document.file()](const std::stop_token&) {
-        return sessions::findMissing(session, file);
-      },
+      [session = parts_.document.session(), file = parts_.document.file()](
+          const std::stop_token& stop) { return sessions::findMissing(session, file, stop); },
       [this](const std::vector<sessions::Relink>& relinks) {
         Document& document = parts_.document;
         if (relinks.empty())
@@ -184,10 +186,10 @@ void InputFindings::acceptChanged() {
     if (finding.kind == FindingKind::kChanged) ids.insert(finding.case_id);
   tasks_.replace(
       repairing_,
-      [session = parts_.document.session(), ids](const std::stop_token&) {
+      [session = parts_.document.session(), ids](const std::stop_token& stop) {
         Accepted accepted;
         for (const std::string& id : ids)
-          if (const sessions::SessionCase* before = session.findCase(id))
+          if (const auto* before = stop.stop_requested() ? nullptr : session.findCase(id))
             accepted.emplace_back(*before, *sessions::acceptingInputs(session, id).findCase(id));
         return accepted;
       },

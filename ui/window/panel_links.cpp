@@ -63,7 +63,11 @@ PanelLinks::PanelLinks(WindowParts& parts, const WindowDocks& docks, QObject* pa
       parts_(parts),
       docks_(docks),
       details_(new CaseDetails(parts.tasks, this)),
-      nudged_(new PoseRenderer(this)) {
+      nudged_(new PoseRenderer(this)),
+      rows_(caseRowWork(), [this](const std::vector<std::size_t>* places) {
+        if (!places) return showCases();
+        for (const std::size_t place : *places) showCase(place);
+      }) {
   linkCases();
   linkConfiguration();
   linkPoses();
@@ -82,18 +86,22 @@ void PanelLinks::linkCases() {
   connect(&panel, &CasesPanel::runAllRequested, &cases, &CaseController::runAll);
   parts_.state.onChange(ViewChange::kOtherCase, this, [this] {
     const QString id = parts_.cases.caseId();
-    showCases();
+    showWorking();
     docks_.cases.setCurrent(id);
     docks_.queue.setCurrent(id);
   });
   const auto document_shown = [this] {
     details_->setSession(parts_.document.session());
-    showCases();
+    rows_.follow(parts_.document.session());
   };
+  connect(&parts_.document, &Document::opened, this, [this] { rows_.clear(); });
   connectEach(parts_.document, this, document_shown, &Document::opened, &Document::changed);
-  connect(details_, &CaseDetails::changed, this, &PanelLinks::showCases);
-  connect(&parts_.run, &RunController::stateChanged, this, &PanelLinks::showCases);
-  connect(&cases, &CaseController::batchChanged, this, &PanelLinks::showCases);
+  connect(details_, &CaseDetails::changed, this, [this](const std::set<std::string>& ids) {
+    for (const std::string& id : ids) showCase(rows_.placeOf(id));
+  });
+  connect(&parts_.run, &RunController::stateChanged, this, &PanelLinks::showWorking);
+  connect(&cases, &CaseController::batchChanged, this, &PanelLinks::showWorking);
+  rows_.setActive(true);
 }
 
 void PanelLinks::linkConfiguration() {
@@ -118,14 +126,32 @@ void PanelLinks::linkPoses() {
   connect(nudged_, &PoseRenderer::rendered, &docks_.image, &ImagePanel::setNudgedRender);
 }
 
+CaseRow PanelLinks::rowAt(std::size_t place) const {
+  CaseRow row = rows_.value(place);
+  details_->fill(row);
+  if (row.id != running_) return row;
+  row.state = CaseState::kRunning;
+  row.stale = false;
+  return row;
+}
+
 void PanelLinks::showCases() {
+  std::vector<CaseRow> rows;
+  for (std::size_t place = 0; place < rows_.size(); ++place) rows.push_back(rowAt(place));
+  docks_.cases.setRows(std::move(rows));
+}
+
+void PanelLinks::showCase(std::size_t place) {
+  if (place < rows_.size()) docks_.cases.setRow(static_cast<int>(place), rowAt(place));
+}
+
+void PanelLinks::showWorking() {
   const auto& batch = parts_.cases.batch();
   const bool working = parts_.cases.isWorking();
   const QString running = batch ? batch->case_id : working ? parts_.cases.caseId() : QString();
-  std::vector<CaseRow> rows =
-      caseRows(parts_.document.session(), running, parts_.document.file(), stale_runs_);
-  details_->fill(rows);
-  docks_.cases.setRows(std::move(rows));
+  const QString former = std::exchange(running_, running);
+  if (former != running)
+    for (const QString& id : {former, running}) showCase(rows_.placeOf(id.toStdString()));
   docks_.cases.setRunnable(!working);
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include <QObject>
 #include <QString>
 #include <QStringList>
 
-#include "sessions/session/session.h"
+#include "ui/panels/case/cases_panel.h"
+#include "ui/run/case_by_case.h"
 #include "ui/state/view_state.h"
 #include "ui/window/window_parts.h"
 
@@ -58,6 +60,9 @@ class PanelLinks : public QObject {
   void linkConfiguration();
   void linkPoses();
   void showCases();
+  void showCase(std::size_t place);
+  void showWorking();
+  CaseRow rowAt(std::size_t place) const;
   void showConfiguration();
   void showInputs();
   bool isStillOpen(const CaseOpening& seen);
@@ -72,8 +77,9 @@ class PanelLinks : public QObject {
   const WindowDocks& docks_;
   CaseDetails* details_;
   PoseRenderer* nudged_;
-  sessions::StaleRuns stale_runs_;
+  QString running_;      ///< id of the case under way, or empty
   TaskKind describing_;  ///< the inputs
+  CaseByCase<CaseRow> rows_;
 };
 
 }  // namespace boresight::ui

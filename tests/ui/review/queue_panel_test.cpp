@@ -2,6 +2,8 @@
 // The queue in the window, by its keys; of a results file, too.
 #include "ui/review/queue_panel.h"
 
+#include <set>
+
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_file.h"
 #include "sessions/session/case_run.h"
@@ -316,6 +318,30 @@ TEST_F(QueuePanelTest, ChangedInputs_CheckTheRowAgainUnlessHaltedOrOutOfSight) {
   EXPECT_FALSE(queue().isBusy());
   QTest::keyClick(&window_, Qt::Key_5, Qt::ControlModifier);
   EXPECT_TRUE(checked());
+}
+
+/// Every row was made again for each edit, on the window's thread.
+TEST_F(QueuePanelTest, EditOfOneCase_ChangesItsRowAlone) {
+  auto& filter = *qobject_cast<QSortFilterProxyModel*>(table_->model());
+  auto& cases = *qobject_cast<QSortFilterProxyModel*>(find<QTableView>("cases").model());
+  std::set<int> queue_rows, case_rows;
+  QObject owner;
+  const auto note = [&owner](QAbstractItemModel& model, std::set<int>& rows) {
+    QObject::connect(&model, &QAbstractItemModel::dataChanged, &owner,
+                     [&rows](const QModelIndex& from, const QModelIndex& to) {
+                       for (int row = from.row(); row <= to.row(); ++row) rows.insert(row);
+                     });
+  };
+  note(*filter.sourceModel(), queue_rows);
+  note(*cases.sourceModel(), case_rows);
+  edit([this](sessions::Session& session) {
+    session = sessions::withChanged(session, good_.toStdString(), [](auto& changed) {
+      changed.camera_from_station_seed.translation_m.x() += 1e-6;
+    });
+  });
+  ASSERT_TRUE(checked());
+  EXPECT_EQ(queue_rows.size(), 1u);
+  EXPECT_EQ(case_rows.size(), 1u);
 }
 
 TEST_F(QueuePanelTest, RowsKeepTheirPlacesWhileThePointerIsOnThem) {

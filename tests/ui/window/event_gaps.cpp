@@ -2,17 +2,21 @@
 // Longest time that the window is blocked: event_gaps DATASET CASE opens a case, runs it to the
 // end, walks through its iterations, zooms with all layers shown, runs a batch, runs it again and
 // stops it at once. It prints the longest times that the event loop was kept by one event, and how
-// soon a stop was answered. Built by: cmake --build build/release --target event_gaps
+// soon a stop was answered. event_gaps DATASET --cases N edits a session of N cases, with the queue
+// and the history shown. Built by: cmake --build build/release --target event_gaps
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include <QtWidgets>
 
 #include "sessions/session/session_maker.h"
+#include "tests/support/many_cases.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/window/main_window.h"
@@ -183,6 +187,42 @@ class Walk {
     });
   }
 
+  /// Edits of one case and of the whole session: CPU time of this thread until nothing is left to
+  /// do, and in the edit itself.
+  void edit() {
+    window_.workspaces().show(ui::Workspace::kReview);
+    for (const char* dock : {"queue", "history"}) window_.dock(QLatin1String(dock))->show();
+    waitFor([this] { return rests(); });
+    const auto report = [this](const char* what,
+                               const std::function<void(sessions::Session&)>& change) {
+      settle();
+      sessions::Session session = window_.document().session();
+      change(session);
+      const double before_ms = cpuTime_ms();
+      window_.document().edit(session, QString::fromLatin1(what));
+      const double edited_ms = cpuTime_ms();
+      settle();
+      std::printf("%s: CPU %.1f ms, and %.1f ms in the next second\n", what, edited_ms - before_ms,
+                  cpuTime_ms() - edited_ms);
+    };
+    const auto move = [](sessions::Session& session, std::size_t i) {
+      const std::string id = std::as_const(session).cases[i]->id;
+      session = sessions::withChanged(session, id, [](auto& changed) {
+        changed.camera_from_station_seed.translation_m.y() += 1e-7;
+      });
+    };
+    for (int i = 0; i < 3; ++i) {
+      report("moving the seed of the shown case", [&](auto& session) { move(session, 0); });
+      report("moving the seed of another case", [&](auto& session) { move(session, 999); });
+    }
+    report("changing an option", [](auto& session) {
+      session.options = {{"search.enabled", false}};
+    });
+    report("changing a limit", [](auto& session) {
+      session.review.limits = {{"check.inlier_count", 8.0}};
+    });
+  }
+
   void stop() {
     double worst_ms = 0.0;
     for (int i = 0; i < 10; ++i) {
@@ -205,6 +245,11 @@ class Walk {
  private:
   bool working() { return window_.run().state() == ui::RunState::kWorking; }
   bool rests() { return !window_.tasks().isBusy() && !working(); }
+  static void settle() {
+    QElapsedTimer clock;
+    clock.start();
+    waitFor([&clock] { return clock.elapsed() > 1000; });
+  }
   /// From a window at rest to a window at rest.
   void measure(const char* what, const std::function<void()>& act) {
     waitFor([this] { return rests(); });
@@ -222,8 +267,9 @@ class Walk {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "event_gaps DATASET CASE\n");
+  const bool many = argc == 4 && std::string_view(argv[2]) == "--cases";
+  if (argc != 3 && !many) {
+    std::fprintf(stderr, "event_gaps DATASET CASE | DATASET --cases N\n");
     return 2;
   }
   if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
@@ -238,6 +284,12 @@ int main(int argc, char** argv) {
   window.resize(1920, 1200);
   window.show();
   Walk walk(clock, window);
+  if (many) {
+    walk.open(folder / "many.boresight.json",
+              test::manyCases(sessions::makeSession(argv[1]), std::atoll(argv[3])));
+    walk.edit();
+    return 0;
+  }
   walk.open(folder / "gaps.boresight.json", sessions::makeSession(argv[1], {argv[2]}));
   walk.run();
   for (const char* dock : {"iterations", "inspector", "scene", "review", "queue"})

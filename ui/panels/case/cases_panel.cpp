@@ -158,6 +158,15 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   setCurrent(current_);
 }
 
+void CasesPanel::setRow(int row, const CaseRow& value) {
+  if (model_.at(row) == value) return;
+  {
+    const QScopedValueRollback<bool> showing(showing_, true);
+    model_.setRow(row, value);
+  }
+  setCurrent(current_);
+}
+
 /// For other cases only: widths that the operator has chosen stay while these run.
 void CasesPanel::fitColumns() {
   ui_.cases->resizeColumnsToContents();

@@ -71,6 +71,7 @@ class CasesPanel : public QWidget {
   CasesPanel();
 
   void setRows(std::vector<CaseRow> rows);
+  void setRow(int row, const CaseRow& value);
   /// Shows the open case as chosen without requesting it.
   void setCurrent(const QString& id);
   /// Whether runs can be started now.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include <QWidget>
 
 #include "ui_history_panel.h"
@@ -19,8 +21,10 @@ class HistoryPanel : public QWidget {
 
  private:
   void fill();
+  void fillAgain();
 
   Document& document_;
+  std::size_t done_ = 0;  ///< edits in effect as listed
   bool filling_ = false;
   Ui::HistoryPanel ui_;
 };

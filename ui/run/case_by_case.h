@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "sessions/session/session_difference.h"
+#include "ui/run/task_runner.h"
+
+namespace boresight::ui {
+
+/// Place of a value among those that wait: the smallest is made first.
+using WaitingRank = std::pair<int, int>;
+
+/// How the value of a case is made. A value for which `make` throws stays as it was.
+template <class Value>
+struct CaseWork {
+  using Make = std::function<Value(const sessions::Session&, const std::string& id, Value former)>;
+  /// A value, and whether it is the whole value.
+  using Glance = std::function<std::pair<Value, bool>(const sessions::Session&,
+                                                      const std::string& id, Value former)>;
+
+  /// Whether the case is listed; without it all are.
+  std::function<bool(const sessions::Session&, const std::string& id)> listed;
+  /// Of a new case, on the UI's thread: takes about a microsecond.
+  std::function<Value(const sessions::Session&, const std::string& id)> first;
+  /// Of a few changed cases, on the UI's thread: takes less than a millisecond.
+  Glance glance;
+  /// The whole value, on the worker's thread.
+  Make make;
+  /// Order in which values are made; without it that of the session.
+  std::function<WaitingRank(const Value&)> rank;
+};
+
+/// A value for each case of a session, made again on a worker thread when data of the case, of its
+/// rig or of the whole session has changed. Until then the former value is shown. An edit of one
+/// case costs the same in a session of any size.
+template <class Value>
+class CaseByCase {
+ public:
+  /// Places of changed values in the list; nullptr: other cases are listed.
+  using Changed = std::function<void(const std::vector<std::size_t>* places)>;
+
+  CaseByCase(CaseWork<Value> work, Changed changed)
+      : work_(std::move(work)), changed_(std::move(changed)) {}
+
+  /// Sets the session of the values.
+  void follow(const sessions::Session& session) {
+    const sessions::SessionDifference difference = sessions::differenceOf(session_, session);
+    const auto ids = sessions::withCasesOfRigs(difference.cases, session_, session);
+    session_ = session;
+    const bool lists = difference.list || isListedOtherwise(ids);
+    if (lists) listAgain();
+    std::vector<std::size_t> places;
+    if (difference.ofAllCases())
+      for (std::size_t place = 0; place < entries_.size(); ++place) places.push_back(place);
+    else
+      for (const std::string& id : ids)
+        if (const auto found = places_.find(id); found != places_.end())
+          places.push_back(found->second);
+    for (const std::size_t place : places) makeStale(place, places.size() <= kAtOnce);
+    if (lists || !places.empty()) changed_(lists ? nullptr : &places);
+    goOn();
+  }
+  /// Drops all values.
+  void clear() {
+    waiting_.clear();
+    places_.clear();
+    entries_.clear();
+    session_ = {};
+  }
+
+  /// No value is made while inactive (not visible, or halted).
+  void setActive(bool active) {
+    active_ = active;
+    goOn();
+  }
+  bool isBusy() const { return making_; }
+
+  std::size_t size() const { return entries_.size(); }
+  const Value& value(std::size_t place) const { return entries_[place]->value; }
+  /// Whether the value is of the session as it is.
+  bool isCurrent(std::size_t place) const { return entries_[place]->current; }
+  std::size_t currentCount() const { return entries_.size() - waiting_.size(); }
+  /// Of a listed case; else size().
+  std::size_t placeOf(const std::string& id) const {
+    const auto found = places_.find(id);
+    return found == places_.end() ? entries_.size() : found->second;
+  }
+
+ private:
+  struct Entry {
+    std::string id;
+    Value value;
+    bool current = false;
+    std::uint64_t version = 0;  ///< another one after each change of what it depends on
+    WaitingRank rank = {};      ///< while it waits
+  };
+  /// A value that is being made.
+  struct Order {
+    std::string id;
+    std::uint64_t version = 0;
+    Value value;
+  };
+
+  static constexpr std::size_t kAtOnce = 16;  ///< changed cases that are looked at on this thread
+  static constexpr std::size_t kOrders = 32;  ///< of one task
+  static constexpr std::chrono::milliseconds kSlice{50};  ///< then a task ends with what it has
+
+  bool isListed(const std::string& id) const { return !work_.listed || work_.listed(session_, id); }
+  bool isListedOtherwise(const std::set<std::string>& ids) const {
+    if (!work_.listed) return false;
+    for (const std::string& id : ids)
+      if (places_.contains(id) != (session_.findCase(id) != nullptr && isListed(id))) return true;
+    return false;
+  }
+
+  /// In the order of the session; known cases keep their values.
+  void listAgain() {
+    std::vector<std::unique_ptr<Entry>> former = std::exchange(entries_, {});
+    std::unordered_map<std::string, std::size_t> former_places = std::exchange(places_, {});
+    waiting_.clear();
+    for (const auto& session_case : std::as_const(session_).cases) {  // else it loses its index
+      const std::string& id = session_case->id;
+      if (!isListed(id)) continue;
+      const auto found = former_places.find(id);
+      entries_.push_back(found == former_places.end()
+                             ? std::make_unique<Entry>(Entry{id, work_.first(session_, id)})
+                             : std::move(former[found->second]));
+      const std::size_t place = entries_.size() - 1;
+      places_[id] = place;
+      if (!entries_[place]->current) wait(place);
+    }
+  }
+
+  void makeStale(std::size_t place, bool glances) {
+    Entry& entry = *entries_[place];
+    if (!entry.current) waiting_.erase({entry.rank, place});
+    entry.current = false;
+    ++entry.version;
+    if (glances)
+      std::tie(entry.value, entry.current) =
+          work_.glance(session_, entry.id, std::move(entry.value));
+    if (!entry.current) wait(place);
+  }
+  void wait(std::size_t place) {
+    Entry& entry = *entries_[place];
+    entry.rank = work_.rank ? work_.rank(entry.value) : WaitingRank();
+    waiting_.insert({entry.rank, place});
+  }
+
+  void goOn() {
+    if (!active_ || making_ || waiting_.empty()) return;
+    making_ = true;
+    std::vector<Order> orders;
+    for (const auto& [rank, place] : waiting_) {
+      if (orders.size() == kOrders) break;
+      const Entry& entry = *entries_[place];
+      orders.push_back({entry.id, entry.version, entry.value});
+    }
+    runner_.queue(
+        [session = session_, orders, make = work_.make](const std::stop_token& stop) {
+          const auto end = std::chrono::steady_clock::now() + kSlice;
+          std::vector<Order> made;
+          for (const Order& order : orders) {
+            if (stop.stop_requested() || (!made.empty() && std::chrono::steady_clock::now() > end))
+              break;
+            made.push_back(order);
+            try {
+              made.back().value = make(session, order.id, order.value);
+            } catch (const std::exception&) {  // it stays as it was
+            }
+          }
+          return made;
+        },
+        [this](std::vector<Order> made) { take(std::move(made)); },
+        [this, orders](const QString&) { take(orders); });  // as they were: not tried again
+  }
+
+  /// A value of a case that has changed meanwhile still waits.
+  void take(std::vector<Order> made) {
+    making_ = false;
+    std::vector<std::size_t> places;
+    for (Order& order : made) {
+      const std::size_t place = placeOf(order.id);
+      if (place == entries_.size() || entries_[place]->version != order.version) continue;
+      Entry& entry = *entries_[place];
+      waiting_.erase({entry.rank, place});
+      entry.value = std::move(order.value);
+      entry.current = true;
+      places.push_back(place);
+    }
+    goOn();
+    if (!places.empty()) changed_(&places);
+  }
+
+  CaseWork<Value> work_;
+  Changed changed_;
+  sessions::Session session_;
+  std::vector<std::unique_ptr<Entry>> entries_;
+  std::unordered_map<std::string, std::size_t> places_;  ///< by id
+  std::set<std::pair<WaitingRank, std::size_t>> waiting_;
+  bool active_ = false;
+  bool making_ = false;
+  TaskRunner runner_;  ///< declared last: it ends before the members that its work uses
+};
+
+}  // namespace boresight::ui
