@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/annotations_file.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -10,6 +10,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/io/json/json_writer.h"
+#include "sessions/text/text_reading.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -61,8 +62,21 @@ class CsvReader {
  public:
   CsvReader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
 
+  /// Goes to the next record that has a field; spreadsheets write empty rows behind the last one.
   bool next(Record& record) {
-    if (at_ >= text_.size()) return false;
+    do {
+      if (at_ >= text_.size()) return false;
+      read(record);
+    } while (std::ranges::all_of(record.fields, &std::string::empty));
+    return true;
+  }
+
+ private:
+  [[noreturn]] void fail(int line, const char* reason) const {
+    throw InputError(file_, "line " + std::to_string(line), reason);
+  }
+
+  void read(Record& record) {
     record = {{}, line_};
     for (bool more = true; more; at_ += more ? 1 : 0) {
       record.fields.push_back(
@@ -76,12 +90,6 @@ class CsvReader {
     if (!carriage_return && !line_feed && at_ < text_.size())
       fail(line_, "text follows a closing quote");
     ++line_;
-    return true;
-  }
-
- private:
-  [[noreturn]] void fail(int line, const char* reason) const {
-    throw InputError(file_, "line " + std::to_string(line), reason);
   }
 
   std::string plain() {
@@ -125,8 +133,9 @@ class RowReader {
   }
 
   double number(std::size_t column) const {
-    const auto value = numberIn<double>(text(column));
-    if (!value || !std::isfinite(*value)) fail(column, "'" + text(column) + "' is not a number");
+    const auto value = realIn(text(column));
+    if (!value) fail(column, noNumberText(text(column)));
+    if (!std::isfinite(*value)) fail(column, shortWord(text(column)) + " is too large");
     return *value;
   }
 
@@ -189,6 +198,13 @@ LinePair readLine(const RowReader& row) {
   return line;
 }
 
+/// Whether the header has semicolons or tabs, as spreadsheets of countries with decimal commas
+/// write.
+bool isSplitOtherwise(const Record& header) {
+  return header.fields.size() == 1 && header.fields[0].starts_with(kColumns[0]) &&
+         header.fields[0].find_first_of(";\t") != std::string::npos;
+}
+
 }  // namespace
 
 std::string annotationsCsv(const Annotations& annotations) {
@@ -222,7 +238,11 @@ Annotations parseAnnotationsCsv(const std::filesystem::path& file, std::string_v
   if (!reader.next(record) ||
       record.fields != std::vector<std::string>(kColumns.begin(), kColumns.end()))
     throw InputError(file, "line 1",
-                     "is not the header of an annotation table (kind,id,x1_px,...)");
+                     "is not the header of an annotation table (kind,id,x1_px,...)" +
+                         std::string(isSplitOtherwise(record)
+                                         ? ": save it with commas between fields and points in "
+                                           "numbers"
+                                         : ""));
   Annotations annotations;
   std::set<std::string> ids;
   while (reader.next(record)) {

@@ -110,7 +110,7 @@ ordered_json toJson(const Annotations& annotations) { return fieldsJson(annotati
 
 Annotations readAnnotations(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kMarks);
-  if (isTable(file)) return parseAnnotationsCsv(file, unmarkedText(file, bytes));
+  if (isTable(file)) return parseAnnotationsCsv(file, textOf(file, asText(bytes)));
   return JsonDocument(file, asText(bytes))
       .read(kAnnotationsFormat, kAnnotationsVersion,
             [](const JsonReader& root) { return readAnnotations(root); });

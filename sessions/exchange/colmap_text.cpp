@@ -6,13 +6,16 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -136,81 +139,88 @@ std::string imageLine(const PosedImage& image, int camera_id) {
 /// Reads the words of a line; errors name its number.
 class Line {
  public:
-  Line(const std::filesystem::path& file, int number, const std::string& text)
-      : file_(file), number_(number), words_(text) {}
+  Line(const std::filesystem::path& file, const TextLines& lines)
+      : file_(file), number_(lines.number()), rest_(lines.line()) {}
 
   [[noreturn]] void fail(const std::string& reason) const {
     throw InputError(file_, "line " + std::to_string(number_), reason);
   }
 
-  std::string word(const char* what) {
-    std::string text;
-    if (!(words_ >> text)) fail(std::string(what) + " is missing");
+  bool atEnd() const { return rest_.find_first_not_of(kTextBlanks) == std::string_view::npos; }
+
+  std::string_view word(const std::string& what) {
+    const std::string_view text = takeWord(rest_);
+    if (text.empty()) fail(what + " is missing");
     return text;
   }
 
-  double number(const char* what) {
-    const std::string text = word(what);
-    const auto value = numberIn<double>(text);
-    if (!value || !std::isfinite(*value))
-      fail(std::string(what) + ": '" + text + "' is not a number");
+  double number(const std::string& what) {
+    const std::string_view text = word(what);
+    const auto value = realIn(text);
+    if (!value) fail(what + ": " + noNumberText(text));
+    if (!std::isfinite(*value)) fail(what + ": " + shortWord(text) + " is too large");
     return *value;
   }
 
-  int integer(const char* what, int minimum, int maximum) {
+  int integer(const std::string& what, int minimum, int maximum) {
     const double value = number(what);
     if (value != std::floor(value) || value < minimum || value > maximum)
-      fail(std::string(what) + " must be a whole number, " + std::to_string(minimum) + " .. " +
+      fail(what + " must be a whole number, " + std::to_string(minimum) + " .. " +
            std::to_string(maximum));
     return static_cast<int>(value);
   }
 
   std::string rest(const char* what) {
-    std::string text;
-    std::getline(words_ >> std::ws, text);
-    while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
+    const std::string_view text = trimmed(rest_);
     if (text.empty()) fail(std::string(what) + " is missing");
-    return text;
+    return std::string(text);
   }
 
   void end() {
-    std::string more;
-    if (words_ >> more) fail("has extra values: '" + more + "'");
+    if (const std::string_view more = takeWord(rest_); !more.empty())
+      fail("has extra values: '" + shortWord(more) + "'");
   }
 
  private:
   const std::filesystem::path& file_;
-  int number_;
-  std::istringstream words_;
+  std::int64_t number_;
+  std::string_view rest_;
 };
 
-std::vector<std::string> linesOf(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) &&
-      std::filesystem::exists(std::filesystem::path(file).replace_extension(".bin"), error))
-    throw InputError(file,
-                     "no such file, but the binary one: convert the model to text with colmap "
-                     "model_converter --output_type TXT");
-  const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxBytes);
-  std::istringstream stream{std::string(unmarkedText(file, bytes))};
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
+/// A file of the model. InputError when its last line has no end, as COLMAP writes one: the last
+/// number or name may be cut.
+class ModelText {
+ public:
+  explicit ModelText(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error) &&
+        std::filesystem::exists(std::filesystem::path(file).replace_extension(".bin"), error))
+      throw InputError(file,
+                       "no such file, but the binary one: convert the model to text with colmap "
+                       "model_converter --output_type TXT");
+    bytes_ = readFileBytes(file, kMaxBytes);
+    text_ = textOf(file, asText(bytes_));
+    if (!endsItsLine(text_)) throw InputError(file, kOpenEnd);
+  }
+  TextLines lines() const { return TextLines(text_); }
 
-bool isCommentOrBlank(const std::string& line) {
-  return line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos;
+ private:
+  std::vector<std::uint8_t> bytes_;
+  std::string_view text_;
+};
+
+bool isCommentOrBlank(std::string_view line) {
+  return line.starts_with('#') || trimmed(line).empty();
 }
 
 /// InputError when COLMAP's comment, such as "# Number of images: 6, ...", states another number.
-void requireStated(const std::filesystem::path& file, const std::vector<std::string>& lines,
+void requireStated(const std::filesystem::path& file, const ModelText& model,
                    const std::string& item, std::size_t found) {
   const std::string begin = "# Number of " + item + "s: ";
-  for (const std::string& line : lines) {
-    if (!line.starts_with(begin)) continue;
-    const std::string text =
-        line.substr(begin.size(), line.find_first_of(", \r", begin.size()) - begin.size());
-    const auto stated = numberIn<std::size_t>(text);
+  for (TextLines lines = model.lines(); lines.next();) {
+    if (!lines.line().starts_with(begin)) continue;
+    const std::string_view text = lines.line().substr(begin.size());
+    const auto stated = numberIn<std::size_t>(trimmed(text.substr(0, text.find(','))));
     if (stated && *stated != found)
       throw InputError(file, "states " + countText(static_cast<std::int64_t>(*stated), item) +
                                  ", but has " + std::to_string(found) +
@@ -218,24 +228,37 @@ void requireStated(const std::filesystem::path& file, const std::vector<std::str
   }
 }
 
+/// Whether the line is one of an image: behind its id is a quaternion.
+bool isImageLine(std::string_view line) {
+  if (!wholeIn<std::int64_t>(takeWord(line))) return false;
+  Eigen::Vector4d rotation;
+  for (double& part : rotation) {
+    const auto value = realIn(takeWord(line));
+    if (!value) return false;
+    part = *value;
+  }
+  return std::abs(rotation.norm() - 1.0) < 1e-3 && !trimmed(line).empty();
+}
+
 /// Refuses a line behind an image's that is not its points: the next image in it would be lost.
-void requirePoints(const std::filesystem::path& file, int number, const std::string& text) {
-  std::istringstream words(text);
-  std::string x;
-  std::string y;
-  std::string point;
-  while (words >> x) {
-    const bool whole = words >> y >> point && numberIn<double>(x) && numberIn<double>(y) &&
-                       numberIn<std::int64_t>(point);
-    if (!whole)
-      throw InputError(file, "line " + std::to_string(number),
-                       "is not a list of points (x y id): write an empty line after each image "
-                       "without points");
+void requirePoints(const std::filesystem::path& file, const TextLines& lines) {
+  Line line(file, lines);
+  if (lines.line().starts_with('#') || isImageLine(lines.line()))
+    line.fail(
+        "is no list of points (x y id), which follows each image: write an empty line for an "
+        "image without points");
+  for (int point = 1; !line.atEnd(); ++point) {
+    const std::string of_point = " of point " + std::to_string(point);
+    (void)line.number("x" + of_point);
+    (void)line.number("y" + of_point);
+    const std::string_view id = line.word("the id" + of_point);
+    if (!wholeIn<std::int64_t>(id))
+      line.fail("the id" + of_point + ": '" + shortWord(id) + "' is not a whole number");
   }
 }
 
 Camera readCameraLine(Line& line) {
-  const std::string name = line.word("the camera's model");
+  const std::string name(line.word("the camera's model"));
   const auto model = std::ranges::find(colmapModels(), name, &ColmapModel::name);
   if (model == colmapModels().end()) line.fail("no camera model matches " + name + kWhatToDo);
   Camera camera;
@@ -260,17 +283,15 @@ Camera readCameraLine(Line& line) {
 
 std::map<int, Camera> readCameras(const std::filesystem::path& file) {
   std::map<int, Camera> cameras;
-  const std::vector<std::string> lines = linesOf(file);
-  int number = 0;
-  for (const std::string& text : lines) {
-    ++number;
-    if (isCommentOrBlank(text)) continue;
-    Line line(file, number, text);
+  const ModelText model(file);
+  for (TextLines lines = model.lines(); lines.next();) {
+    if (isCommentOrBlank(lines.line())) continue;
+    Line line(file, lines);
     const int id = line.integer("the camera's id", 0, 1 << 30);
     if (!cameras.emplace(id, readCameraLine(line)).second)
       line.fail("camera " + std::to_string(id) + " is given twice");
   }
-  requireStated(file, lines, "camera", cameras.size());
+  requireStated(file, model, "camera", cameras.size());
   return cameras;
 }
 
@@ -337,18 +358,18 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
 std::vector<PosedImage> readColmapText(const std::filesystem::path& folder) {
   const std::map<int, Camera> cameras = readCameras(folder / "cameras.txt");
   const std::filesystem::path file = folder / "images.txt";
-  const std::vector<std::string> lines = linesOf(file);
+  const ModelText model(file);
   std::vector<PosedImage> images;
   std::set<int> ids;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (isCommentOrBlank(lines[i])) continue;
-    Line line(file, static_cast<int>(i) + 1, lines[i]);
+  for (TextLines lines = model.lines(); lines.next();) {
+    if (isCommentOrBlank(lines.line())) continue;
+    Line line(file, lines);
     images.push_back(readImageLine(line, cameras));
     if (!ids.insert(images.back().id).second)
       line.fail("image " + std::to_string(images.back().id) + " is given twice");
-    if (++i < lines.size()) requirePoints(file, static_cast<int>(i) + 1, lines[i]);
+    if (lines.next()) requirePoints(file, lines);
   }
-  requireStated(file, lines, "image", images.size());
+  requireStated(file, model, "image", images.size());
   return images;
 }
 

@@ -2,10 +2,8 @@
 #include "sessions/io/cameras/cahvor_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -16,6 +14,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -27,23 +26,25 @@ class Entries {
  public:
   explicit Entries(const std::filesystem::path& file) : file_(file) {
     const auto bytes = readFileBytes(file, kMaxBytes);
-    std::istringstream lines{std::string(unmarkedText(file, bytes))};
+    const std::string_view whole = textOf(file, asText(bytes));
     std::string key;
-    for (std::string line; std::getline(lines, line);) {
-      const std::string_view text = trimmed(std::string_view(line).substr(0, line.find('#')));
+    for (TextLines lines(whole); lines.next();) {
+      const std::string_view text = trimmed(lines.line().substr(0, lines.line().find('#')));
       if (text.empty()) continue;
       const auto equals = text.find('=');
       if (equals == std::string_view::npos && key.empty())
-        throw InputError(file, "not a camera file: it begins with '" + oneLine(line) +
+        throw InputError(file, "not a camera file: it begins with '" + shortWord(text) +
                                    "' instead of Model = ...");
       if (equals == std::string_view::npos) {
         values_[key] += " " + std::string(text);
         continue;
       }
-      key = std::string(trimmed(text.substr(0, equals)));
+      key = trimmedVisible(text.substr(0, equals));
       if (!values_.emplace(key, trimmed(text.substr(equals + 1))).second)
         throw InputError(file, key, "is given twice");
     }
+    // The last number of a file that is cut may be one of fewer digits.
+    if (!endsItsLine(whole)) throw InputError(file, kOpenEnd);
   }
 
   bool has(const std::string& key) const { return values_.contains(key); }
@@ -54,12 +55,13 @@ class Entries {
   }
   /// Exactly `count` finite numbers.
   std::vector<double> numbers(const std::string& key, std::size_t count) const {
-    std::istringstream words(text(key));
+    std::string_view rest = text(key);
     std::vector<double> found;
-    for (std::string word; words >> word;) {
-      const auto value = numberIn<double>(word);
-      if (!value || !(std::abs(*value) <= 1e18))
-        throw InputError(file_, key, "'" + oneLine(word) + "' is not a number");
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
+      const auto value = realIn(word);
+      if (!value) throw InputError(file_, key, noNumberText(word));
+      if (!(std::abs(*value) <= 1e18))
+        throw InputError(file_, key, shortWord(word) + " is beyond 1e18");
       found.push_back(*value);
     }
     if (found.size() != count)
@@ -108,9 +110,8 @@ void readModel(const Entries& entries, CahvModel& cahv) {
     cahv.model = CameraModel::kCahvore;
     cahv.type = name.back() - '0';
   } else if (name.starts_with(kGeneral)) {
-    const auto parameter =
-        numberIn<double>(trimmed(std::string_view(name).substr(kGeneral.size())));
-    if (!parameter) refuse();
+    const auto parameter = realIn(trimmed(std::string_view(name).substr(kGeneral.size())));
+    if (!parameter || !std::isfinite(*parameter)) refuse();
     cahv.model = CameraModel::kCahvore;
     cahv.type = 3;
     cahv.parameter = *parameter;

@@ -28,7 +28,8 @@ struct CahvorFile {
 bool isCahvorFile(const std::filesystem::path& file);
 
 /// InputError with the line's key: a missing or duplicate key, numbers that are not finite or too
-/// few, a covariance that is not symmetric or of another size.
+/// few, a covariance that is not symmetric or of another size; a last line without its end, which
+/// may be cut.
 CahvorFile readCahvorFile(const std::filesystem::path& file);
 /// The camera of such a file; its reference frame has no name.
 CameraFile readCahvorCamera(const std::filesystem::path& file);

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 #include <vector>
 
 #include "core/base/math.h"
@@ -56,6 +58,39 @@ std::vector<double> numbersIn(std::string_view text) {
 
 bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
+}
+
+bool isDigitOrPoint(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; }
+
+/// Whether a character beyond ASCII that is no blank, such as a printed minus sign, is in front of
+/// a number, which would be read without it.
+bool hasForeignSign(std::string_view text) {
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i - 1] >= 0 || !isDigitOrPoint(text[i])) continue;
+    const std::string_view before = text.substr(0, i);
+    const bool blank = std::ranges::any_of(
+        std::initializer_list<const char*>{"\u00a0", "\u2002", "\u2003", "\u2007", "\u2009",
+                                           "\u200b", "\u202f", "\u3000", "\ufeff"},
+        [before](const char* known) { return before.ends_with(known); });
+    if (!blank) return true;
+  }
+  return false;
+}
+
+/// Whether blanks or semicolons separate numbers with decimal commas: "0,5; 1,25".
+bool hasDecimalCommas(std::string_view text) {
+  constexpr const char* kPartsOfNumbers = "0123456789,.+-eE";
+  int with_comma = 0;
+  while (!text.empty()) {
+    text.remove_prefix(std::min(text.find_first_of(kPartsOfNumbers), text.size()));
+    const std::string_view word = text.substr(0, text.find_first_not_of(kPartsOfNumbers));
+    text.remove_prefix(word.size());
+    const auto commas = std::ranges::count(word, ',');
+    if (commas > 1 || contains(word, ".")) return false;
+    const std::size_t comma = word.find(',');
+    if (commas == 1 && comma > 0 && comma + 1 < word.size()) ++with_comma;
+  }
+  return with_comma > 1;
 }
 
 ParsedPose refused(PoseForm form, std::string problem) {
@@ -179,6 +214,12 @@ PoseReading guessReading(std::string_view text) {
 
 ParsedPose parsePose(std::string_view text, const PoseReading& reading) {
   const std::vector<double> numbers = numbersIn(text);
+  if (hasForeignSign(text))
+    return refused(PoseForm::kMatrix,
+                   "A character beyond ASCII is in front of a number: write "
+                   "signs and digits in ASCII.");
+  if (hasDecimalCommas(text))
+    return refused(PoseForm::kMatrix, "The numbers have decimal commas: write decimal points.");
   if (!std::all_of(numbers.begin(), numbers.end(), [](double n) { return isFinite(n); }))
     return refused(PoseForm::kMatrix, "Not every number is finite.");
   switch (numbers.size()) {

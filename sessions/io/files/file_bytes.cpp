@@ -16,6 +16,7 @@
 #include "core/base/digest.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/log/program_log.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -62,6 +63,13 @@ std::string readReason(int error) {
   if (error == ENXIO) return kSpecial;  // a socket
   if (error == EACCES) return "permission denied";
   return std::strerror(error);
+}
+
+/// Whether the text begins with two characters of ASCII in UTF-16 of either byte order.
+bool isUnmarkedUtf16(std::string_view text) {
+  if (text.size() < 4) return false;
+  const bool zero[] = {text[0] == 0, text[1] == 0, text[2] == 0, text[3] == 0};
+  return zero[0] != zero[1] && zero[0] == zero[2] && zero[1] == zero[3];
 }
 
 /// InputError for what a download without Git LFS, or one that was refused, leaves in place of the
@@ -178,13 +186,13 @@ std::string_view withoutMark(std::string_view text) {
 std::string_view unmarkedText(const fs::path& file, std::string_view bytes) {
   using namespace std::string_view_literals;
   if (bytes.starts_with("\xFF\xFE"sv) || bytes.starts_with("\xFE\xFF"sv) ||
-      bytes.starts_with("\0\0\xFE\xFF"sv))
+      bytes.starts_with("\0\0\xFE\xFF"sv) || isUnmarkedUtf16(bytes))
     throw InputError(file, "is UTF-16 or UTF-32 text: save it as UTF-8");
   return withoutMark(bytes);
 }
 
-std::string_view unmarkedText(const fs::path& file, std::span<const std::uint8_t> bytes) {
-  return unmarkedText(file, asText(bytes));
+std::string_view textOf(const fs::path& file, std::string_view bytes) {
+  return withoutPadding(unmarkedText(file, bytes));
 }
 
 std::string sha256Text(std::span<const std::uint8_t> bytes) {

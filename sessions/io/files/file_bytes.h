@@ -53,11 +53,12 @@ std::string_view asText(std::span<const std::uint8_t> bytes);
 /// The text without the byte order mark of UTF-8.
 std::string_view withoutMark(std::string_view text);
 
-/// The text of a file without the UTF-8 byte order mark that spreadsheets and editors put in front.
-/// InputError when its mark is that of UTF-16 or UTF-32.
+/// A file without the UTF-8 byte order mark that spreadsheets and editors put in front. InputError
+/// when it is UTF-16 or UTF-32, by its mark or by the zero bytes of its first characters.
 std::string_view unmarkedText(const std::filesystem::path& file, std::string_view bytes);
-std::string_view unmarkedText(const std::filesystem::path& file,
-                              std::span<const std::uint8_t> bytes);
+
+/// The text of a text file: unmarkedText without zero bytes and Ctrl-Z behind its end. InputError.
+std::string_view textOf(const std::filesystem::path& file, std::string_view bytes);
 
 /// SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256Text(std::span<const std::uint8_t> bytes);

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
-#include "sessions/text/plain_text.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -60,20 +59,18 @@ std::vector<fs::path> filesOfFolder(const fs::path& folder) {
 
 std::vector<fs::path> filesOfList(const fs::path& list) {
   const std::vector<std::uint8_t> bytes = readFileBytes(list, kMaxListBytes);
-  const std::string_view text = unmarkedText(list, bytes);
+  const std::string_view text = textOf(list, asText(bytes));
   if (text.find('\0') != std::string_view::npos)
     throw InputError(list, "is not a list of images: a text file with one path a line");
-  std::istringstream stream{std::string(text)};
   std::vector<fs::path> files;
   std::set<fs::path> known;
-  int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    ++number;
-    line.resize(line.find_last_not_of(" \t\r\n\v\f") + 1);
+  for (TextLines lines(text); lines.next();) {
+    std::string line(lines.line());
+    line.resize(line.find_last_not_of(kTextBlanks) + 1);
     if (line.empty() || line.front() == '#') continue;
     files.push_back(list.parent_path() / line);
     if (!known.insert(files.back().lexically_normal()).second)
-      throw InputError(list, "line " + std::to_string(number), line + " is listed twice");
+      throw InputError(list, "line " + std::to_string(lines.number()), line + " is listed twice");
   }
   if (files.empty()) throw InputError(list, "lists no image");
   return files;

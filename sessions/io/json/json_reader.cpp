@@ -309,7 +309,7 @@ std::filesystem::path JsonReader::path(FileUse use) const {
 
 JsonDocument::JsonDocument(const std::filesystem::path& file, std::string_view text)
     : file_(file),
-      value_(std::make_shared<const nlohmann::json>(parse(file, unmarkedText(file, text)))) {}
+      value_(std::make_shared<const nlohmann::json>(parse(file, textOf(file, text)))) {}
 
 JsonDocument::JsonDocument(const std::filesystem::path& file)
     : JsonDocument(file, asText(readFileBytes(file, kMaxJsonBytes))) {}

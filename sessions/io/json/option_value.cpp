@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/json/option_value.h"
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -94,8 +94,8 @@ OptionValue parsedValue(const OptionDescription& option, std::string_view text) 
     if (text == "false") return false;
     wrongKind(option, whole);
   }
-  if (const auto integer = numberIn<std::int64_t>(text)) return checkedValue(option, *integer);
-  const auto real = numberIn<double>(text);
+  if (const auto integer = wholeIn<std::int64_t>(text)) return checkedValue(option, *integer);
+  const auto real = realIn(text);
   if (!real) wrongKind(option, whole);
   return checkedValue(option, *real);
 }

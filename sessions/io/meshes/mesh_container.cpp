@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -16,7 +15,7 @@
 #include "sessions/io/json/json_reader.h"
 #include "sessions/io/meshes/obj_file.h"
 #include "sessions/io/meshes/stl_file.h"
-#include "sessions/text/plain_text.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -29,23 +28,58 @@ constexpr const char* kFormatNames[] = {"PLY", "OBJ", "STL", "glTF", "GLB"};  //
   throw InputError(file, std::string("the ") + format + " mesh is truncated");
 }
 
-constexpr const char* kWithoutIt = "is not read: export the mesh without it";
-
-/// Extensions that leave the geometry as it is.
+/// Extensions that leave the geometry as it is: materials, lights, behaviour, metadata.
 bool isHarmlessExtension(std::string_view name) {
-  constexpr std::string_view kBegins[] = {"KHR_materials_", "KHR_texture_",         "KHR_lights_",
-                                          "KHR_xmp",        "EXT_texture_",         "EXT_lights_",
-                                          "MSFT_texture_",  "KHR_animation_pointer"};
+  constexpr std::string_view kBegins[] = {"KHR_materials_",
+                                          "KHR_texture_",
+                                          "KHR_lights_",
+                                          "KHR_xmp",
+                                          "KHR_animation_pointer",
+                                          "KHR_techniques_",
+                                          "KHR_audio_",
+                                          "KHR_physics_",
+                                          "KHR_interactivity",
+                                          "KHR_node_hoverability",
+                                          "KHR_node_selectability",
+                                          "EXT_texture_",
+                                          "EXT_lights_",
+                                          "EXT_mesh_features",
+                                          "EXT_mesh_manifold",
+                                          "EXT_instance_features",
+                                          "EXT_structural_metadata",
+                                          "MSFT_texture_",
+                                          "MSFT_packing_",
+                                          "MSFT_audio_",
+                                          "MSFT_lod",
+                                          "MSFT_physics",
+                                          "ADOBE_materials_",
+                                          "NV_materials_",
+                                          "AGI_stk_metadata",
+                                          "CESIUM_primitive_outline",
+                                          "FB_ngon_encoding"};
   return std::ranges::any_of(kBegins,
                              [name](std::string_view begin) { return name.starts_with(begin); });
 }
 
-/// A reader must refuse a file that requires what it does not know (glTF 2.0, 3.12).
+/// Why a required extension is refused, and what to do.
+std::string extensionRefusal(std::string_view name) {
+  if (name.find("compression") != std::string_view::npos)
+    return "is not read: export the mesh without compression";
+  if (name == "EXT_mesh_gpu_instancing")
+    return "is not read: export each instance as a node of its own";
+  if (name == "KHR_node_visibility")
+    return "is not read: export the visible nodes alone, without the extension";
+  return "is not known and may change the geometry: export the mesh without it";
+}
+
+/// A reader must refuse a file that requires what it does not know (glTF 2.0, 3.12). Of quantized
+/// meshes positionsOf refuses the positions.
 void checkRequiredExtensions(const JsonReader& gltf) {
   const auto required = gltf.find("extensionsRequired");
   if (!required) return;
   for (const JsonReader& name : required->elements())
-    if (!isHarmlessExtension(name.text())) name.fail("'" + name.text() + "' " + kWithoutIt);
+    if (!isHarmlessExtension(name.text()) && name.text() != "KHR_mesh_quantization")
+      name.fail("'" + name.text() + "' " + extensionRefusal(name.text()));
 }
 
 /// Compressed data, which importers take for zeros where its extension is optional.
@@ -55,7 +89,7 @@ void checkBufferViews(const JsonReader& gltf) {
   for (const JsonReader& view : views->elements())
     if (const auto extensions = view.find("extensions"))
       for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-        if (extensions->has(name)) extensions->failMember(name, kWithoutIt);
+        if (extensions->has(name)) extensions->failMember(name, extensionRefusal(name));
 }
 
 const JsonReader& accessorAt(const JsonReader& index, const std::vector<JsonReader>& accessors) {
@@ -347,26 +381,17 @@ MeshDeclaration checkMeshContainer(const MeshFiles& files) {
 }
 
 void noteOpenEnd(std::string_view text, MeshDeclaration& declaration) {
-  if (!text.ends_with('\n') && !text.ends_with('\r'))
+  if (!endsItsLine(text))
     declaration.notes.emplace_back(
         "the last line of the file has no line end: the file may be truncated");
 }
 
-std::optional<double> coordinateIn(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc() || text.find_first_of("eE") == std::string_view::npos) return value;
-  const bool small =
-      text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos;
-  return small ? 0.0 : std::numeric_limits<double>::infinity();
-}
-
 std::span<const std::uint8_t> MeshFiles::content() const {
   if (format != MeshFormat::kPly && format != MeshFormat::kObj) return bytes;
-  return Bytes(bytes).last(unmarkedText(file, bytes).size());
+  const std::string_view marked = asText(bytes);
+  const std::string_view text =
+      format == MeshFormat::kObj ? textOf(file, marked) : unmarkedText(file, marked);
+  return Bytes(bytes).subspan(static_cast<std::size_t>(text.data() - marked.data()), text.size());
 }
 
 MeshFiles readMeshFiles(const fs::path& file) {

@@ -35,8 +35,8 @@ struct MeshDeclaration {
   std::optional<std::int64_t> polygon_count;  ///< empty: not stated
   /// Offset of the data of a binary PLY, when their first byte looks like a line end.
   std::optional<std::size_t> newline_as_data = {};
-  /// A PLY mesh with triangle strips, with faces before vertices, or with other lines than items:
-  /// importers read its plainPly().
+  /// A PLY mesh with triangle strips, with faces before vertices, with other lines than items, or
+  /// with numbers that importers read otherwise: they get its plainPly().
   bool needs_plain_ply = false;
   std::vector<std::string> notes = {};  ///< for the operator: what importers leave out
 };
@@ -61,7 +61,8 @@ struct MeshFiles {
   std::vector<MeshBuffer> buffers;  ///< of glTF, in its order; without those inside the file itself
   std::string sha256;               ///< of the file and its buffers, one after the other
 
-  /// `bytes` without the byte order mark of a text. InputError for UTF-16.
+  /// `bytes` without the byte order mark of a text, and without what pads the end of one (all
+  /// formats but PLY, which may be binary). InputError for UTF-16.
   std::span<const std::uint8_t> content() const;
 };
 
@@ -81,10 +82,6 @@ MeshDeclaration checkPly(const std::filesystem::path& file, std::span<const std:
 
 /// Notes that the last line of a text has no line end: it may be cut off within a number.
 void noteOpenEnd(std::string_view text, MeshDeclaration& declaration);
-
-/// A coordinate in a text file, also with a plus sign, infinite where it exceeds a double; empty
-/// for another text.
-std::optional<double> coordinateIn(std::string_view text);
 
 struct Mesh;
 

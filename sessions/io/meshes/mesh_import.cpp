@@ -88,8 +88,8 @@ void keepInEach(Json& object, const char* list, Keys keys) {
 }
 
 std::string geometryJson(std::string_view text) {
-  Json gltf = kept(Json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
-                                       "meshes", "accessors", "bufferViews", "buffers"});
+  Json gltf = kept(Json::parse(text), {"asset", "scene", "scenes", "nodes", "meshes", "accessors",
+                                       "bufferViews", "buffers"});
   keepInEach(gltf, "scenes", {"nodes"});
   keepInEach(gltf, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
   keepInEach(gltf, "meshes", {"primitives"});

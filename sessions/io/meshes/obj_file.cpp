@@ -2,31 +2,28 @@
 #include "sessions/io/meshes/obj_file.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "sessions/io/files/errors.h"
-#include "sessions/text/plain_text.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
 
-constexpr const char* kBlanks = " \t\r\v\f";
-
-/// The first word of `rest`, which loses it; "" at its end.
-std::string_view takeWord(std::string_view& rest) {
-  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
-  const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
-  rest.remove_prefix(word.size());
-  return word;
+/// The importer's keyword of a line: "fo" is the face of older files. "" for other lines.
+std::string_view geometryKeyword(std::string_view word) {
+  if (word == "fo") return "f";
+  for (const char* known : {"v", "f", "l", "p"})
+    if (word == known) return known;
+  return {};
 }
 
 /// Whether a backslash at the end of the line continues it. That of a name or a comment, such as a
 /// folder of Windows, would swallow the vertex or face in the next line.
-bool isGeometry(std::string_view line) {
+bool isContinued(std::string_view line) {
   const std::string_view keyword = takeWord(line);
-  for (const char* known : {"v", "vn", "vt", "vp", "f", "l", "p"})
-    if (keyword == known) return true;
-  return false;
+  return !geometryKeyword(keyword).empty() || keyword == "vn" || keyword == "vt" || keyword == "vp";
 }
 
 /// Calls `take` with each line without indent, comment of a vertex or face, and continuation, and
@@ -34,22 +31,16 @@ bool isGeometry(std::string_view line) {
 template <class Take>
 void forEachLine(std::string_view text, Take take) {
   std::string joined;
-  std::int64_t number = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line = trimmed(text.substr(0, end));
-    const bool pair = text.substr(end).starts_with("\r\n");
-    text.remove_prefix(std::min(end + (pair ? 2 : 1), text.size()));
-    ++number;
-    joined += line;
-    if (isGeometry(joined)) {
+  for (TextLines lines(text); lines.next();) {
+    joined += trimmed(lines.line());
+    if (isContinued(joined)) {
       joined.erase(std::min(joined.find('#'), joined.size()));
-      if (joined.ends_with('\\') && !text.empty()) {
+      if (joined.ends_with('\\') && !lines.isLast()) {
         joined.back() = ' ';
         continue;
       }
     }
-    take(std::string_view(joined), number);
+    take(std::string_view(joined), lines.number());
     joined.clear();
   }
 }
@@ -59,6 +50,14 @@ bool isUnreadGeometry(std::string_view keyword) {
   for (const char* known : {"curv", "curv2", "surf", "bzp", "bsp", "cdc", "cdp", "res", "call"})
     if (keyword == known) return true;
   return false;
+}
+
+/// The vertex of a corner "7/8/9", from 1 or, from the last one back, from -1; empty for other
+/// texts.
+std::optional<std::int64_t> vertexOfCorner(std::string_view corner) {
+  if (corner.find_first_not_of("+-0123456789/") != std::string_view::npos) return std::nullopt;
+  const auto vertex = wholeIn<std::int64_t>(corner.substr(0, corner.find('/')));
+  return vertex == 0 ? std::nullopt : vertex;
 }
 
 class ObjLine {
@@ -72,7 +71,7 @@ class ObjLine {
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view text = word();
       if (text.empty()) fail("a vertex has three coordinates");
-      if (!coordinateIn(text)) fail("'" + shortened(text) + "' is not a number");
+      if (!realIn(text)) fail(noNumberText(text));
     }
   }
 
@@ -80,14 +79,20 @@ class ObjLine {
   int checkFace() {
     int corners = 0;
     for (std::string_view text = word(); !text.empty(); text = word()) {
-      const std::string_view index = text.substr(0, text.find('/'));
-      const bool others = text.find_first_not_of("-0123456789/") == std::string_view::npos;
-      if (!others || !numberIn<std::int64_t>(index))
-        fail("'" + shortened(text) + "' is not a corner of a face");
+      if (!vertexOfCorner(text)) fail("'" + shortWord(text) + "' is not a corner of a face");
       ++corners;
     }
     if (corners == 0) fail("a face has no corners");
     return corners;
+  }
+
+  /// A blank of another script makes one word of a keyword and what is behind it.
+  void checkKeyword(std::string_view keyword) {
+    if (keyword == "V" || keyword == "F")
+      fail("'" + std::string(keyword) + "' is no keyword: they are in lower case");
+    const bool joined = keyword.size() > 1 && (keyword[0] == 'v' || keyword[0] == 'f') &&
+                        std::ranges::any_of(keyword, [](char c) { return c < 0; });
+    if (joined) fail("'" + shortWord(keyword) + "' is no keyword: write blanks of ASCII");
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
@@ -95,29 +100,33 @@ class ObjLine {
   }
 
  private:
-  static std::string shortened(std::string_view word) { return oneLine(word.substr(0, 40)); }
-
   const std::filesystem::path& file_;
   std::string_view rest_;
   std::int64_t number_;
 };
 
-void append(std::vector<std::uint8_t>& plain, std::string_view text) {
-  plain.insert(plain.end(), text.begin(), text.end());
-}
-
 /// The three coordinates of a vertex alone: the importer divides by a weight behind them, takes
-/// colours for one, and does not count a number that begins with its point.
-void appendVertex(std::vector<std::uint8_t>& plain, std::string_view coordinates) {
-  append(plain, "v");
+/// colours for one, and counts no number that begins with its point.
+std::string plainVertex(std::string_view coordinates) {
+  std::string plain;
   for (int axis = 0; axis < 3; ++axis) {
     std::string_view text = takeWord(coordinates);
-    append(plain, " ");
-    if (text.starts_with('-')) append(plain, "-");
+    plain += text.starts_with('-') ? " -" : " ";
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-    if (text.starts_with('.')) append(plain, "0");
-    append(plain, text);
+    if (text.starts_with('.')) plain += "0";
+    plain += text;
   }
+  std::ranges::replace_if(
+      plain, [](char c) { return c == 'd' || c == 'D'; }, 'e');
+  return plain;
+}
+
+/// The vertices of corners.
+std::string plainCorners(std::string_view corners) {
+  std::string plain;
+  for (std::string_view text = takeWord(corners); !text.empty(); text = takeWord(corners))
+    if (const auto vertex = vertexOfCorner(text)) plain += " " + std::to_string(*vertex);
+  return plain;
 }
 
 }  // namespace
@@ -127,15 +136,15 @@ MeshDeclaration checkObj(const std::filesystem::path& file, std::string_view tex
   std::int64_t vertices = 0, faces = 0, unread = 0;
   forEachLine(text, [&](std::string_view content, std::int64_t number) {
     ObjLine line(file, content, number);
-    const std::string_view keyword = line.word();
+    const std::string_view word = line.word();
+    const std::string_view keyword = geometryKeyword(word);
+    line.checkKeyword(word);
     if (keyword == "v") {
       line.checkVertex();
       ++vertices;
     } else if (keyword == "f" && line.checkFace() >= 3) {
       ++faces;
-    } else if (keyword == "V" || keyword == "F") {
-      line.fail("'" + std::string(keyword) + "' is no keyword: they are in lower case");
-    } else if (isUnreadGeometry(keyword)) {
+    } else if (isUnreadGeometry(word)) {
       ++unread;
     }
   });
@@ -154,12 +163,11 @@ std::vector<std::uint8_t> plainObj(std::string_view text) {
   std::vector<std::uint8_t> plain;
   plain.reserve(text.size() + 1);
   forEachLine(text, [&plain](std::string_view line, std::int64_t) {
-    std::string_view rest = line;
-    if (takeWord(rest) == "v")
-      appendVertex(plain, rest);
-    else
-      for (const char letter : line)
-        plain.push_back(static_cast<std::uint8_t>(letter == '\\' ? '/' : letter));
+    const std::string_view keyword = geometryKeyword(takeWord(line));
+    if (keyword.empty()) return;
+    const std::string content = keyword == "v" ? plainVertex(line) : plainCorners(line);
+    plain.insert(plain.end(), keyword.begin(), keyword.end());
+    plain.insert(plain.end(), content.begin(), content.end());
     plain.push_back('\n');
   });
   return plain;

@@ -14,8 +14,8 @@ namespace boresight::sessions {
 /// last line is noted. InputError.
 MeshDeclaration checkObj(const std::filesystem::path& file, std::string_view text);
 
-/// The lines of a file for importers, which skip indented lines and take the line behind a name
-/// with a backslash for its end: without indents and continued lines, names without backslashes.
+/// The vertices and polygons of a file for importers, which refuse or misread other lines (normals,
+/// texture coordinates, names) that are not used: coordinates and indices alone.
 std::vector<std::uint8_t> plainObj(std::string_view text);
 
 }  // namespace boresight::sessions

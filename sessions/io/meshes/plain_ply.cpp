@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,11 +19,6 @@ struct PlyMesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<Polygon> polygons;
 };
-
-bool isVertexList(const PlyProperty& property) {
-  return property.isList() &&
-         (property.name == "vertex_indices" || property.name == "vertex_index");
-}
 
 /// What is no index of a vertex is one that does not exist; negative numbers are -1.
 std::int32_t indexOf(double value) {
@@ -52,16 +46,20 @@ void takeItem(const PlyElement& element, std::uint64_t item, PlyValues& values, 
   std::array<double, 3> vertex{};
   for (const PlyProperty& property : element.properties) {
     const std::uint64_t count = values.count(element, item, property);
+    if (!isGeometry(element, property)) {
+      values.skip(count, property.type);
+      continue;
+    }
     Polygon list;
     for (std::uint64_t i = 0; i < count; ++i) {
       const double value = values.next(property.type);
-      if (isVertexList(property))
-        list.push_back(indexOf(value));
-      else if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
+      if (isCoordinate(property))
         vertex[static_cast<std::size_t>(property.name[0] - 'x')] = value;
+      else
+        list.push_back(indexOf(value));
     }
-    if (element.name == "face" && isVertexList(property)) mesh.polygons.push_back(list);
-    if (element.name == "tristrips" && isVertexList(property)) addStrips(list, mesh.polygons);
+    if (element.name == "face") mesh.polygons.push_back(list);
+    if (element.name == "tristrips") addStrips(list, mesh.polygons);
   }
   if (element.name == "vertex") mesh.vertices.push_back(vertex);
 }

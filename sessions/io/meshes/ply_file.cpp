@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
-#include <sstream>
+#include <string>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/meshes/mesh_container.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -20,13 +20,11 @@ using Bytes = std::span<const std::uint8_t>;
   throw InputError(file, "the PLY mesh is truncated");
 }
 
-void readPlyLine(const std::filesystem::path& file, const std::string& line, PlyHeader& header) {
-  std::istringstream words(line);
-  std::string keyword;
-  words >> keyword;
+void readPlyLine(const std::filesystem::path& file, std::string_view text, PlyHeader& header) {
+  const std::string line = shortWord(text);
+  const std::string_view keyword = takeWord(text);
   if (keyword == "format") {
-    std::string encoding;
-    words >> encoding;
+    const std::string encoding(takeWord(text));
     if (encoding == "binary_little_endian")
       header.encoding = PlyEncoding::kLittleEndian;
     else if (encoding == "binary_big_endian")
@@ -35,20 +33,23 @@ void readPlyLine(const std::filesystem::path& file, const std::string& line, Ply
       throw InputError(file, "header", "unknown PLY encoding '" + encoding + "'");
   } else if (keyword == "element") {
     PlyElement element;
-    std::string count;
-    words >> element.name >> count;
-    const auto whole = numberIn<std::uint64_t>(count);
+    element.name = takeWord(text);
+    const std::string_view count = takeWord(text);
+    const auto whole = wholeIn<std::uint64_t>(count);
     if (!whole)
       throw InputError(file, "header",
-                       "bad line '" + line + "': '" + count + "' is not a whole number");
+                       "bad line '" + line + "': '" + shortWord(count) + "' is not a whole number");
     element.count = *whole;
     header.elements.push_back(element);
   } else if (keyword == "property") {
     PlyProperty property;
-    words >> property.type;
+    property.type = takeWord(text);
     const bool is_list = property.type == "list";
-    if (is_list) words >> property.count_type >> property.type;
-    words >> property.name;
+    if (is_list) {
+      property.count_type = takeWord(text);
+      property.type = takeWord(text);
+    }
+    property.name = takeWord(text);
     const bool bad_list = is_list && plyTypeSize(property.count_type) == 0;
     if (header.elements.empty() || plyTypeSize(property.type) == 0 || bad_list)
       throw InputError(file, "header", "bad line '" + line + "'");
@@ -84,17 +85,49 @@ void requireNames(const std::filesystem::path& file, const PlyElement& element) 
     throw InputError(file, "header", "the faces have no list vertex_indices");
 }
 
-/// Whether each item has a line, as importers take for granted.
+/// Whether each item has a line that ends in LF, as importers take for granted.
 bool isLineByItem(const PlyHeader& header, std::string_view body) {
   std::uint64_t items = 0;
   for (const PlyElement& element : header.elements) items += element.count;
-  const std::size_t last = body.find_last_not_of(" \t\r\n");
+  const std::size_t last = body.find_last_not_of(kTextBlanks);
   if (last == std::string_view::npos) return items == 0;
   const auto ends = std::ranges::count(body.substr(0, last), '\n');
   return items == static_cast<std::uint64_t>(ends) + 1;
 }
 
+/// A number that importers read as realIn does.
+bool isUsualNumber(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789";
+  if (text.starts_with('-')) text.remove_prefix(1);
+  return !text.empty() && kDigits.find(text.front()) != std::string_view::npos &&
+         kDigits.find(text.back()) != std::string_view::npos &&
+         text.find_first_not_of("0123456789.+-eE") == std::string_view::npos &&
+         text.find(".e") == std::string_view::npos && text.find(".E") == std::string_view::npos;
+}
+
+/// The file without what pads the end of a text.
+Bytes contentOf(const PlyHeader& header, Bytes bytes) {
+  if (header.encoding != PlyEncoding::kAscii) return bytes;
+  const std::size_t body = withoutPadding(asText(bytes.subspan(header.body))).size();
+  return bytes.first(header.body + body);
+}
+
 }  // namespace
+
+bool isVertexList(const PlyProperty& property) {
+  return property.isList() &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+bool isCoordinate(const PlyProperty& property) {
+  return !property.isList() && property.name.size() == 1 && property.name[0] >= 'x' &&
+         property.name[0] <= 'z';
+}
+
+bool isGeometry(const PlyElement& element, const PlyProperty& property) {
+  if (element.name == "vertex") return isCoordinate(property);
+  return (element.name == "face" || element.name == "tristrips") && isVertexList(property);
+}
 
 int plyTypeSize(std::string_view type) {
   if (type == "char" || type == "uchar" || type == "int8" || type == "uint8") return 1;
@@ -108,16 +141,20 @@ int plyTypeSize(std::string_view type) {
 PlyHeader readPlyHeader(const std::filesystem::path& file, Bytes bytes) {
   constexpr std::size_t kMaxHeader = 65536;
   const std::string_view text = asText(bytes.first(std::min(bytes.size(), kMaxHeader)));
+  // Behind a header whose lines end in CR alone, a LF is the first byte of the data.
+  const std::size_t first_end = text.find_first_of("\r\n");
   PlyHeader header;
+  header.old_mac = text.substr(std::min(first_end, text.size())).starts_with('\r') &&
+                   !text.substr(first_end).starts_with("\r\n");
+  const char line_end = header.old_mac ? '\r' : '\n';
   std::size_t start = 0;
   while (true) {
-    const std::size_t end = text.find('\n', start);
+    const std::size_t end = text.find(line_end, start);
     if (end == std::string_view::npos) {
       if (bytes.size() <= kMaxHeader) truncatedPly(file);
       throw InputError(file, "header", "no end_header within its first 64 kB");
     }
-    std::string line(text.substr(start, end - start));
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+    const std::string_view line = trimmed(text.substr(start, end - start));
     start = end + 1;
     if (line == "end_header") break;
     readPlyLine(file, line, header);
@@ -127,13 +164,17 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, Bytes bytes) {
 }
 
 std::string_view PlyValues::word() {
-  constexpr const char* kBlanks = " \t\r\n";
-  const std::string_view text = asText(rest_);
-  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
-  const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
-  if (begin == end) truncatedPly(file_);
-  rest_ = rest_.subspan(end);
-  return text.substr(begin, end - begin);
+  std::string_view text = asText(rest_);
+  const std::string_view word = takeWord(text);
+  if (word.empty()) truncatedPly(file_);
+  rest_ = rest_.last(text.size());
+  return word;
+}
+
+void PlyValues::fail(std::string_view word, const std::string& reason) const {
+  const std::string_view text = asText(bytes_);
+  const auto offset = static_cast<std::size_t>(word.data() - text.data());
+  throw InputError(file_, "line " + std::to_string(lineAt(text, offset)), reason);
 }
 
 std::uint64_t PlyValues::bits(const std::string& type) {
@@ -144,9 +185,11 @@ std::uint64_t PlyValues::bits(const std::string& type) {
 
 void PlyValues::skip(std::uint64_t values, const std::string& type) {
   if (encoding_ == PlyEncoding::kAscii) {
-    for (; values > 0; --values)
-      if (const std::string_view text = word(); !coordinateIn(text))
-        throw InputError(file_, "'" + oneLine(text.substr(0, 40)) + "' is not a number");
+    for (; values > 0; --values) {
+      const std::string_view text = word();
+      unusual_numbers_ = unusual_numbers_ || !isUsualNumber(text);
+      if (!realIn(text) && !isNotFiniteText(text)) fail(text, noNumberText(text));
+    }
     return;
   }
   const auto size = static_cast<std::uint64_t>(plyTypeSize(type));
@@ -154,20 +197,33 @@ void PlyValues::skip(std::uint64_t values, const std::string& type) {
   rest_ = rest_.subspan(values * size);
 }
 
+void PlyValues::check(std::uint64_t values, const PlyElement& element,
+                      const PlyProperty& property) {
+  if (encoding_ != PlyEncoding::kAscii || !isGeometry(element, property))
+    return skip(values, property.type);
+  for (; values > 0; --values) (void)next(property.type);
+}
+
 std::uint64_t PlyValues::count(const PlyElement& element, std::uint64_t item,
                                const PlyProperty& property) {
   if (!property.isList()) return 1;
   if (encoding_ != PlyEncoding::kAscii) return bits(property.count_type);
   const std::string_view text = word();
-  const auto number = numberIn<std::uint64_t>(text);
-  if (!number || *number > body_.size())
+  const auto number = wholeIn<std::uint64_t>(text);
+  if (!number || *number > bytes_.size())
     throw InputError(file_, element.name + " " + std::to_string(item),
-                     "'" + std::string(text) + "' is not the length of a list");
+                     "'" + shortWord(text) + "' is not the length of a list");
   return *number;
 }
 
 double PlyValues::next(const std::string& type) {
-  if (encoding_ == PlyEncoding::kAscii) return numberIn<double>(word()).value_or(std::nan(""));
+  if (encoding_ == PlyEncoding::kAscii) {
+    const std::string_view text = word();
+    unusual_numbers_ = unusual_numbers_ || !isUsualNumber(text);
+    const auto value = realIn(text);
+    if (!value) fail(text, noNumberText(text));
+    return *value;
+  }
   const std::uint64_t raw = bits(type);
   const int size = plyTypeSize(type);
   if (size == 8) return std::bit_cast<double>(raw);
@@ -179,7 +235,8 @@ double PlyValues::next(const std::string& type) {
 }
 
 MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
-  if (!asText(bytes).starts_with("ply\n") && !asText(bytes).starts_with("ply\r"))
+  std::string_view begin = asText(bytes.first(std::min<std::size_t>(bytes.size(), 4)));
+  if (takeWord(begin) != "ply" || begin.empty())
     throw InputError(file, "not a PLY mesh (the file does not begin with 'ply')");
   const PlyHeader header = readPlyHeader(file, bytes);
   MeshDeclaration declaration;
@@ -194,22 +251,25 @@ MeshDeclaration checkPly(const std::filesystem::path& file, Bytes bytes) {
     if (element.name == "face")
       declaration.polygon_count = static_cast<std::int64_t>(element.count);
   }
-  const bool is_ascii = header.encoding == PlyEncoding::kAscii;
-  const std::string_view body_text = asText(bytes.subspan(header.body));
-  declaration.needs_plain_ply =
-      needsPlainPly(header) || (is_ascii && !isLineByItem(header, body_text));
-  if (is_ascii) noteOpenEnd(body_text, declaration);
-  if (declaration.needs_plain_ply) declaration.polygon_count.reset();
   if (declaration.vertex_count.value_or(0) == 0) throw InputError(file, "the mesh has no vertices");
-  const std::uint64_t body = header.body;
-  if (!is_ascii && body < bytes.size() && bytes[body] == '\n' && bytes[body - 2] != '\r')
-    declaration.newline_as_data = static_cast<std::size_t>(body);
-  PlyValues values(file, header, bytes);
+  const Bytes content = contentOf(header, bytes);
+  PlyValues values(file, header, content);
   for (const PlyElement& element : header.elements)
     for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
       for (const PlyProperty& property : element.properties)
-        values.skip(values.count(element, i, property), property.type);
+        values.check(values.count(element, i, property), element, property);
   requireEnd(file, header, values.rest());
+  const bool is_ascii = header.encoding == PlyEncoding::kAscii;
+  const std::string_view body_text = asText(content.subspan(header.body));
+  declaration.needs_plain_ply =
+      needsPlainPly(header) || header.old_mac ||
+      (is_ascii && (!isLineByItem(header, body_text) || content.size() != bytes.size() ||
+                    values.unusualNumbers()));
+  if (is_ascii) noteOpenEnd(body_text, declaration);
+  if (declaration.needs_plain_ply) declaration.polygon_count.reset();
+  const std::uint64_t body = header.body;
+  if (!is_ascii && body < bytes.size() && bytes[body] == '\n' && bytes[body - 2] != '\r')
+    declaration.newline_as_data = static_cast<std::size_t>(body);
   return declaration;
 }
 

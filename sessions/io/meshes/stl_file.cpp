@@ -11,7 +11,7 @@
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
-#include "sessions/text/plain_text.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -30,14 +30,14 @@ class StlWords {
   StlWords(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
 
   bool atEnd() {
-    at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size());
+    at_ = std::min(text_.find_first_not_of(kTextBlanks, at_), text_.size());
     return at_ == text_.size();
   }
   /// "" at the end of the file.
   std::string_view next() {
     if (atEnd()) return {};
     word_ = at_;
-    at_ = std::min(text_.find_first_of(kBlanks, at_), text_.size());
+    at_ = std::min(text_.find_first_of(kTextBlanks, at_), text_.size());
     return text_.substr(word_, at_ - word_);
   }
   /// In upper or lower case.
@@ -47,13 +47,13 @@ class StlWords {
     if (keyword.starts_with(lowerCase(word)) && atEnd()) truncated();
     const bool fourth_vertex = keyword == "endloop" && lowerCase(word) == "vertex";
     fail(fourth_vertex ? "a facet has more than three vertices: write triangles"
-                       : "'" + shortened(word) + "' instead of " + std::string(keyword));
+                       : "'" + shortWord(word) + "' instead of " + std::string(keyword));
   }
   float number() {
     const std::string_view word = required();
-    const auto value = coordinateIn(word);
+    const auto value = realIn(word);
     if (!value && atEnd()) truncated();
-    if (!value) fail("'" + shortened(word) + "' is not a number");
+    if (!value) fail(noNumberText(word));
     if (std::abs(*value) > static_cast<double>(std::numeric_limits<float>::max()))
       return std::numeric_limits<float>::infinity();
     return static_cast<float>(*value);
@@ -68,15 +68,10 @@ class StlWords {
   void skipLine() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
 
   [[noreturn]] void fail(const std::string& reason) const {
-    const auto line = 1 + std::ranges::count(text_.substr(0, word_), '\n');
-    throw InputError(file_, "line " + std::to_string(line), reason);
+    throw InputError(file_, "line " + std::to_string(lineAt(text_, word_)), reason);
   }
 
-  static std::string shortened(std::string_view word) { return oneLine(word.substr(0, 40)); }
-
  private:
-  static constexpr const char* kBlanks = " \t\r\n\v\f";
-
   const std::filesystem::path& file_;
   std::string_view text_;
   std::size_t at_ = 0;
@@ -110,8 +105,7 @@ void readSolids(const std::filesystem::path& file, std::string_view text, Take t
       const std::string word = lowerCase(words.required());
       if (word == "endsolid") break;
       if (word != "facet" && words.atEnd()) words.truncated();
-      if (word != "facet")
-        words.fail("'" + StlWords::shortened(word) + "' instead of facet or endsolid");
+      if (word != "facet") words.fail("'" + shortWord(word) + "' instead of facet or endsolid");
       take(readFacet(words));
     }
     words.skipLine();
@@ -165,7 +159,7 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
     return declaration;
   }
   std::int64_t facets = 0;
-  readSolids(file, unmarkedText(file, bytes), [&facets](const Facet&) { ++facets; });
+  readSolids(file, textOf(file, asText(bytes)), [&facets](const Facet&) { ++facets; });
   declaration.polygon_count = facets;
   return declaration;
 }
@@ -177,7 +171,7 @@ std::vector<std::uint8_t> plainStl(const std::filesystem::path& file, Bytes byte
   }
   std::vector<std::uint8_t> binary(kHeader, ' ');
   std::uint32_t facets = 0;
-  readSolids(file, unmarkedText(file, bytes), [&](const Facet& facet) {
+  readSolids(file, textOf(file, asText(bytes)), [&](const Facet& facet) {
     for (int i = 0; i < 3; ++i) append(0.0F, binary);
     for (const float value : facet) append(value, binary);
     binary.insert(binary.end(), 2, 0);

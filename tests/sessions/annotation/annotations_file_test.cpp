@@ -135,6 +135,34 @@ TEST(AnnotationsCsv, InvalidCsv_IsReportedWithLineAndColumn) {
   EXPECT_THROW((void)parseAnnotationsCsv("marks.csv", ""), std::exception);
 }
 
+/// Spreadsheets write empty rows behind the last one, editors empty lines.
+TEST(AnnotationsCsv, EmptyRows_AreLeftOut) {
+  Random random(15);
+  const Annotations annotations = test::randomAnnotations(random, 3, 2);
+  const std::string text = annotationsCsv(annotations), empty(15, ',');
+  for (const std::string& rows : {std::string("\r\n"), std::string("\n\n\n"), std::string("\r\r"),
+                                  empty + "\r\n", empty, "\n" + empty + "\n"})
+    EXPECT_EQ(parseAnnotationsCsv("marks.csv", text + rows), annotations) << rows;
+  EXPECT_EQ(parseAnnotationsCsv("marks.csv", text.substr(0, text.size() - 2)), annotations)
+      << "RFC 4180 lets the last row have no line end";
+}
+
+TEST(AnnotationsCsv, TablesAndNumbersOfOtherCountries_AreNamed) {
+  const TemporaryFolder folder;
+  const auto message = [&](std::string text, char separator) {
+    std::ranges::replace(text, ',', separator);
+    return folder.message([&] { (void)parseAnnotationsCsv("marks.csv", text); });
+  };
+  const std::string row = "point,a,1,2,,,3,4,5,,,,1,1,0,\n";
+  for (const char separator : {';', '\t'})
+    EXPECT_EQ(message(annotationsCsv({}) + row, separator),
+              "marks.csv: line 1: is not the header of an annotation table (kind,id,x1_px,...): "
+              "save it with commas between fields and points in numbers");
+  EXPECT_EQ(message(annotationsCsv({}) + "point,a,\"1,5\",2,,,3,4,5,,,,1,1,0,\n", ','),
+            "marks.csv: line 2, x1_px: '1,5' is not a number: write a decimal point");
+  EXPECT_EQ(message(annotationsCsv({}) + "point,a,+1.,.2,,,3E0,4,5,,,,1,1,0,\n", ','), "(nothing)");
+}
+
 TEST(AnnotationsCsv, NoDamageCrashes) {
   Random random(13);
   const std::string text = annotationsCsv(test::randomAnnotations(random, 6, 3));

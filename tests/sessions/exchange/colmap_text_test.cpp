@@ -143,7 +143,7 @@ TEST_F(ColmapText, NamesWhatIsWrong) {
   const std::pair<const char*, const char*> images[] = {
       {"\n1 1 0 0 0 0 0 1 2 a.png", "line 2: there is no camera 2"},
       {"1 1 1 0 0 0 0 1 1 a.png", "line 1: the quaternion has not the length 1"},
-      {"1 1 0 0 0 0 0 nan 1 a.png", "line 1: the translation: 'nan' is not a number"},
+      {"1 1 0 0 0 0 0 nan 1 a.png", "line 1: the translation: 'nan' is not a finite number"},
       {"1 1 0 0 0 0 0 1 1", "line 1: the image's name is missing"}};
   for (const auto& [image, refusal] : images) {
     folder_.write("images.txt", std::string(image) + "\n\n");
@@ -156,20 +156,70 @@ TEST_F(ColmapText, ImageInPlaceOfPoints_IsRefused) {
   folder_.write("cameras.txt", "1 PINHOLE 10 10 9 9 5 5\n");
   const std::string image = "1 0 0 0 0 0 1 1 ";
   const std::string refusal =
-      " is not a list of points (x y id): write an empty line after each image without points";
+      " is no list of points (x y id), which follows each image: write an empty line for an image "
+      "without points";
   const auto message = [&](const std::string& text) {
     folder_.write("images.txt", text);
     return folder_.message([&] { (void)readImages(); });
   };
   const std::string first = "1 " + image + "a.png\n", second = "2 " + image + "b 1.png\n";
-  for (const char* points : {"1.5 2 x\n", "1.5 2\n", "1,5 2 3\n", "1.5 2 3.5\n", "# none\n"})
-    EXPECT_EQ(message(first + points + second), "images.txt: line 2:" + refusal) << points;
+  EXPECT_EQ(message(first + "# none\n" + second), "images.txt: line 2:" + refusal);
   EXPECT_EQ(message(first + second), "images.txt: line 2:" + refusal);
-  EXPECT_EQ(message(first + "\n" + second + "3 " + image + "c.png"),
+  EXPECT_EQ(message(first + "\n" + second + "3 " + image + "c.png\n"),
             "images.txt: line 4:" + refusal);
-  for (const char* points : {"\n", " \r\n", "1 2e0 -1\r\n", "\n\n"})
+  for (const char* points : {"\n", " \r\n", "1 2e0 -1\r\n", "\n\n", "+1. .5 +7\t1 2 3\n"})
     EXPECT_EQ(message(first + points + second), "(nothing)") << points;
   EXPECT_EQ(readImages().size(), 2u);
+}
+
+TEST_F(ColmapText, BadPoint_IsRefusedWithItsField) {
+  folder_.write("cameras.txt", "1 PINHOLE 10 10 9 9 5 5\n");
+  const std::pair<const char*, const char*> points[] = {
+      {"1.5 2 x", "the id of point 1: 'x' is not a whole number"},
+      {"1.5 2 3 4 5 6.5", "the id of point 2: '6.5' is not a whole number"},
+      {"1.5 2", "the id of point 1 is missing"},
+      {"1 2 3 4", "y of point 2 is missing"},
+      {"1,5 2 3", "x of point 1: '1,5' is not a number: write a decimal point"},
+      {"1 nan 3", "y of point 1: 'nan' is not a finite number"},
+      {"1 2 3 4\xC2\xA0"
+       "5 6",
+       "x of point 2: '4\xC2\xA0"
+       "5' is not a number: write its digits, "
+       "sign and the blanks around it in ASCII"}};
+  for (const auto& [line, refusal] : points) {
+    folder_.write("images.txt", "1 1 0 0 0 0 0 1 1 a.png\n" + std::string(line) + "\n");
+    EXPECT_EQ(folder_.message([&] { (void)readImages(); }),
+              std::string("images.txt: line 2: ") + refusal);
+  }
+}
+
+TEST_F(ColmapText, LinesThatEndInCrAloneAndPaddedText_AreRead) {
+  for (const std::string& padding : {std::string(), std::string("\x1a"), std::string(9, '\0')}) {
+    folder_.write("cameras.txt", "# Number of cameras: 1\r1 PINHOLE 10 10 9 9 5 5\r" + padding);
+    folder_.write("images.txt",
+                  "# a\r1 1 0 0 0 0 0 1 1 a.png\r\r2 1 0 0 0 0 0 1 1 b.png\r1 2 3\r" + padding);
+    const std::vector<PosedImage> images = readImages();
+    ASSERT_EQ(images.size(), 2u);
+    EXPECT_EQ(images[1].name, "b.png");
+  }
+}
+
+/// COLMAP ends its last line; a number cut within its digits shows by nothing else.
+TEST_F(ColmapText, LastLineWithoutEnd_IsRefused) {
+  const std::string cameras = "1 PINHOLE 10 10 9 9 5 50\n";
+  const std::string images = "1 1 0 0 0 0 0 1 1 a.png\n1 2 34\n";
+  const std::string refusal =
+      ": the last line has no line end: the file may be truncated; add the line end if it is whole";
+  folder_.write("images.txt", images);
+  for (const std::size_t cut : {1u, 2u}) {
+    folder_.write("cameras.txt", cameras.substr(0, cameras.size() - cut));
+    EXPECT_EQ(folder_.message([&] { (void)readImages(); }), "cameras.txt" + refusal);
+  }
+  folder_.write("cameras.txt", cameras);
+  for (const std::size_t cut : {1u, 2u, 9u}) {
+    folder_.write("images.txt", images.substr(0, images.size() - cut));
+    EXPECT_EQ(folder_.message([&] { (void)readImages(); }), "images.txt" + refusal);
+  }
 }
 
 /// COLMAP states the number of images and cameras in a comment.

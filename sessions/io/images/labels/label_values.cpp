@@ -2,13 +2,13 @@
 #include "sessions/io/images/labels/label_values.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -42,11 +42,7 @@ const json* unwrapped(const json* value) {
 }
 
 std::optional<double> numberOf(std::string_view text) {
-  std::string plain(numberAndUnit(text).first);
-  if (plain.starts_with('+')) plain.erase(0, 1);
-  for (char& c : plain)
-    if (c == 'd' || c == 'D') c = 'E';
-  const auto value = numberIn<double>(plain);
+  const auto value = realIn(numberAndUnit(text).first);
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/cameras/cahvor_file.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -140,7 +141,13 @@ TEST_F(CahvorText, NamesWhatIsWrong) {
            {"CAHVORE3,0.37", "FISH", "is not known"},
            {"E =", "F =", "a.cahvor: E: is missing"},
            {"E =", "C =", "a.cahvor: C: is given twice"},
-           {"0.001900 ", "nan ", "a.cahvor: E: 'nan' is not a number"},
+           {"0.001900 ", "nan ", "a.cahvor: E: 'nan' is not a finite number"},
+           {"0.001900 ", "0,0019 ", "E: '0,0019' is not a number: write a decimal point"},
+           {"0.001900 ",
+            "\xC2\xA0"
+            "0.0019 ",
+            "not a number: write its digits, sign and the blanks"},
+           {"0.001900 ", "1e19 ", "a.cahvor: E: 1e19 is beyond 1e18"},
            {"0.001900 ", "", "a.cahvor: E: 3 numbers are needed, 2 given"},
            {"1024 768", "1024.5 768", "Dimensions: width and height"},
            {"1024 768", "0 768", "Dimensions: width and height"},
@@ -150,7 +157,27 @@ TEST_F(CahvorText, NamesWhatIsWrong) {
             "a.cahvor: S: 441 numbers are needed, 3 given");
   std::string skewed = std::string(kText) + "S internal =\n";
   for (int i = 0; i < 25; ++i) skewed += std::to_string(i) + " ";
-  EXPECT_THAT(error(skewed), HasSubstr("S internal: is not a covariance"));
+  EXPECT_THAT(error(skewed + "\n"), HasSubstr("S internal: is not a covariance"));
+}
+
+TEST_F(CahvorText, LinesOfOldMacsAndNumbersOfFortran_AreRead) {
+  std::string text = kText;
+  std::ranges::replace(text, '\n', '\r');
+  EXPECT_EQ(error(text), "(nothing)");
+  EXPECT_EQ(error(kText + std::string("\x1a")), "(nothing)");
+  const CahvorFile read =
+      readCahvorFile(folder_.write("a.cahvor", with("0.001900      0.001600", "+.19D-02\t1.6d-3")));
+  EXPECT_EQ(read.cahv.e_m, Eigen::Vector3d(0.0019, 0.0016, 0.0017));
+}
+
+/// A number that is cut within its digits shows by the missing end of its line alone.
+TEST_F(CahvorText, LastLineWithoutEnd_IsRefused) {
+  const std::string text = std::string(kText).substr(0, std::string(kText).find("\n\nHs") + 1);
+  ASSERT_EQ(error(text), "(nothing)");
+  for (const std::size_t cut : {1u, 2u, 4u})
+    EXPECT_EQ(error(text.substr(0, text.size() - cut)),
+              "a.cahvor: the last line has no line end: the file may be truncated; add the line "
+              "end if it is whole");
 }
 
 }  // namespace

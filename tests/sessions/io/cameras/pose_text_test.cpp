@@ -90,6 +90,23 @@ TEST(ParsePose, RefusesWhatIsNoRotation) {
     EXPECT_NE(parsePose(text, {}).problem.find(problem), std::string::npos) << text;
 }
 
+/// As text processors and PDF files have signs, and programs of countries with decimal commas.
+TEST(ParsePose, SignsAndCommasOfOtherTexts_AreNamed) {
+  const auto problem = [](std::string_view text) { return parsePose(text, {}).problem; };
+  for (const char* text :
+       {"0 0 0 \u22120.5 0 1", "0 0 0 \u20130.5 0 1", "0 0 0 \uff0d.5 0 1", "0 0 0 0\u00b75 0 1"})
+    EXPECT_EQ(problem(text),
+              "A character beyond ASCII is in front of a number: write signs and digits in ASCII.")
+        << text;
+  for (const char* text :
+       {"0,5; 0,25; 0; 0; 0; 1,5", "0,5 0,25 0,1 0,0 0,0 1,5", "[0,5] [0,25] 0 0 0 1"})
+    EXPECT_EQ(problem(text), "The numbers have decimal commas: write decimal points.") << text;
+  for (const char* text :
+       {"1,2,3,4,5,6", "1, 2, 3; 4, 5, 6", "1,2,3 4,5,6", "1.5, 2,\u00a03 4\u202f5 6",
+        "rotation_vector_deg [1,2,3] translation_mm [4,5,6]", "1\u00b0, 2\u00b0, 3\u00b0 4 5 6"})
+    EXPECT_EQ(problem(text), "") << text;
+}
+
 TEST(ParsePose, ProjectsAMatrixThatIsNearlyARotationAndSaysSo) {
   const ParsedPose parsed = parsePose("1.00001 0 0 0 0 1 0 0 0 0 1 0", PoseReading());
   ASSERT_TRUE(parsed.valid);

@@ -46,6 +46,8 @@ TEST_F(FrameSourceTest, List_GivesItsImagesInOrderRelativeToIt) {
   const auto list =
       folder_.write("list.txt", std::string_view("\xEF\xBB\xBF# order\n2.png\r\n\nsub/1.png"));
   EXPECT_THAT(namesOf(list), ElementsAre("2.png", "sub/1.png"));
+  folder_.write("list.txt", std::string_view("# order\r2.png\rsub/1.png\r\x1a"));
+  EXPECT_THAT(namesOf(list), ElementsAre("2.png", "sub/1.png"));
   const auto source = openImages(list);
   EXPECT_EQ(source->next()->image->pixels.front(), 2);
 }

@@ -121,7 +121,7 @@ TEST(OptionValues, CanBeGivenAsText) {
            {"sample.count", "many", "'many' is not an integer in 1 .. 50"},
            {"sample.count", "51", "51 is outside 1 .. 50"},
            {"sample.count", "", "'' is not an integer in 1 .. 50"},
-           {"sample.sigma_px", "nan", "nan px is outside 0 .. 8 px"},
+           {"sample.sigma_px", "nan", "'nan' is not a number in 0 .. 8 px"},
            {"sample.sigma_px", "1px", "'1px' is not a number in 0 .. 8 px"},
            {"sample.enabled", "yes", "'yes' is not true or false"},
            {"none", "1", "unknown option"}}) {

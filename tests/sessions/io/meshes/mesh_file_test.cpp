@@ -145,8 +145,8 @@ TEST_F(ReadMesh, AsciiPlyWithFurtherProperties_IsRead) {
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
       "element face 6\nproperty list uchar int vertex_index\n"
       "property list uchar float texcoord\nend_header\n";
-  for (const Eigen::Vector3f& v : mesh.vertices) text += textOf(v) + " 10 20 30 255\n";
-  for (const auto& quad : mesh.polygons) text += "4" + textOf(quad) + " 8 0 0 1 0 1 1 0 1\n";
+  for (const Eigen::Vector3f& v : mesh.vertices) text += numbersOf(v) + " 10 20 30 255\n";
+  for (const auto& quad : mesh.polygons) text += "4" + numbersOf(quad) + " 8 0 0 1 0 1 1 0 1\n";
   expectCube(read("further.ply", text));
 }
 
@@ -162,7 +162,7 @@ TEST_F(ReadMesh, PlyWithFacesFirstOrCoordinatesInAnotherOrder_IsReadByTheNames) 
   std::string turned = replaced(text.substr(0, body), "float x", "float w");
   turned = replaced(turned, "float z", "float x");
   turned = replaced(turned, "float w", "float z");
-  for (const Eigen::Vector3f& v : cube().vertices) turned += textOf(v.reverse()) + "\n";
+  for (const Eigen::Vector3f& v : cube().vertices) turned += numbersOf(v.reverse()) + "\n";
   expectCube(read("turned.ply", turned + text.substr(faces)));
 }
 
@@ -171,9 +171,9 @@ TEST_F(ReadMesh, PlyWithFacesFirstOrCoordinatesInAnotherOrder_IsReadByTheNames) 
 TEST_F(ReadMesh, ObjOfOtherSystems_IsRead) {
   const PolygonMesh mesh = cube();
   std::string text = "mtllib none.mtl\r\no cube\r\n";
-  for (const Eigen::Vector3f& v : mesh.vertices) text += "v " + textOf(v) + " 1.0\r\n";
+  for (const Eigen::Vector3f& v : mesh.vertices) text += "v " + numbersOf(v) + " 1.0\r\n";
   text += "usemtl steel\r\ns off\r\n";
-  for (const auto& quad : mesh.polygons) text += "f" + textOf(quad, -8) + "\r\n";
+  for (const auto& quad : mesh.polygons) text += "f" + numbersOf(quad, -8) + "\r\n";
   expectCube(read("other.obj", text));
 }
 
@@ -489,7 +489,13 @@ TEST_F(ReadMesh, ObjWithContinuedIndentedAndTabbedLines_IsRead) {
 TEST_F(ReadMesh, Obj_LinesThatCannotBeReadAreNamed) {
   const std::string text = obj(cube());
   const auto with = [&](const std::string& line) { return error("a.obj", line + "\n" + text); };
-  EXPECT_EQ(with("v 1,5 2,5 3,5"), "a.obj: line 1: '1,5' is not a number");
+  EXPECT_EQ(with("v 1,5 2,5 3,5"), "a.obj: line 1: '1,5' is not a number: write a decimal point");
+  EXPECT_EQ(with("v\xC2\xA0"
+                 "1 2 3"),
+            "a.obj: line 1: 'v\xC2\xA0"
+            "1' is no keyword: write blanks of ASCII");
+  EXPECT_EQ(with("v nan 2 3"), "a.obj: line 1: 'nan' is not a finite number");
+  EXPECT_EQ(with("f 0 1 2"), "a.obj: line 1: '0' is not a corner of a face");
   EXPECT_EQ(with("v 1 2 # 3"), "a.obj: line 1: a vertex has three coordinates");
   EXPECT_EQ(with("f 1 2 x"), "a.obj: line 1: 'x' is not a corner of a face");
   EXPECT_EQ(with("f 1.5 2 3"), "a.obj: line 1: '1.5' is not a corner of a face");
@@ -514,7 +520,8 @@ TEST_F(ReadMesh, MarkedOrOneLinePly_IsRead) {
             "a.ply: header: the faces have no list vertex_indices");
   EXPECT_EQ(error("a.ply", replaced(text, "element face", "elment face")),
             "a.ply: header: bad line 'elment face 6'");
-  EXPECT_EQ(error("a.ply", replaced(text, "9.000000", "9,0")), "a.ply: '9,0' is not a number");
+  EXPECT_EQ(error("a.ply", replaced(text, "9.000000", "9,0")),
+            "a.ply: line 11: '9,0' is not a number: write a decimal point");
 }
 
 /// glTF 2.0, 3.12: a file that requires what a reader does not know is refused.
@@ -529,14 +536,31 @@ TEST_F(ReadMesh, GltfThatRequiresAnUnknownExtension_IsRefused) {
         << name;
     return error("a.gltf", json, "");
   };
+  const std::string uncompressed = "is not read: export the mesh without compression";
+  const std::pair<const char*, std::string> refusals[] = {
+      {"EXT_mesh_gpu_instancing", "is not read: export each instance as a node of its own"},
+      {"KHR_node_visibility", "is not read: export the visible nodes alone, without the extension"},
+      {"KHR_draco_mesh_compression", uncompressed},
+      {"EXT_meshopt_compression", uncompressed},
+      {"VENDOR_new", "is not known and may change the geometry: export the mesh without it"}};
+  for (const auto& [name, refusal] : refusals)
+    EXPECT_EQ(with(name), "a.gltf: extensionsRequired[0]: '" + std::string(name) + "' " + refusal);
+}
+
+/// KHR_mesh_quantization allows positions of other types than float, and others than positions.
+TEST_F(ReadMesh, GltfThatRequiresExtensionsWithoutGeometry_IsRead) {
+  const std::string buffer = gltfBuffer(cube());
   for (const char* name :
-       {"EXT_mesh_gpu_instancing", "KHR_node_visibility", "KHR_mesh_quantization",
-        "KHR_draco_mesh_compression", "EXT_meshopt_compression", "VENDOR_new"})
-    EXPECT_EQ(with(name), "a.gltf: extensionsRequired[0]: '" + std::string(name) +
-                              "' is not read: export the mesh without it");
-  std::string json = gltf(cube(), kOneNode, R"("uri":"cube.bin",)");
-  json.insert(1, R"("extensionsRequired":["KHR_texture_transform","KHR_materials_unlit"],)");
-  expectCube(read("a.gltf", json, ""));
+       {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit",
+        "KHR_lights_punctual", "EXT_texture_webp", "KHR_texture_basisu", "EXT_mesh_features",
+        "EXT_structural_metadata", "ADOBE_materials_thin_transparency", "FB_ngon_encoding",
+        "CESIUM_primitive_outline", "MSFT_lod", "KHR_interactivity", "KHR_physics_rigid_bodies"}) {
+    std::string json = gltf(cube(), kOneNode, "");
+    json.insert(1, R"("extensionsRequired":[")" + std::string(name) + "\"],");
+    const std::string bytes = glbFile(json, glbChunk(std::string("BIN\0", 4), buffer));
+    ASSERT_EQ(error("a.glb", bytes, ""), "(nothing)") << name;
+    expectCube(read("a.glb", bytes, ""));
+  }
 }
 
 TEST_F(ReadMesh, GltfPositionsThatAreQuantizedOrCompressed_AreRefused) {
@@ -550,7 +574,7 @@ TEST_F(ReadMesh, GltfPositionsThatAreQuantizedOrCompressed_AreRefused) {
               R"("extensions":{"EXT_meshopt_compression":{"buffer":0}},)");
   EXPECT_EQ(error("a.gltf", json, ""),
             "a.gltf: bufferViews[0].extensions.EXT_meshopt_compression: is not read: export the "
-            "mesh without it");
+            "mesh without compression");
 }
 
 /// What an optional extension, or the scene, changes about the geometry.
@@ -727,6 +751,100 @@ TEST_F(ReadMesh, ObjVertices_AreTheirThreeCoordinatesHoweverTheyAreWritten) {
     written.replace(written.find("v 0.1 0 0"), 9, second);
     EXPECT_FLOAT_EQ(extent_m(written), 0.1F) << second;
   }
+}
+
+/// Normals and texture coordinates are not used, whatever they hold.
+TEST_F(ReadMesh, ObjFacesAndFurtherLines_AreReadHoweverTheyAreWritten) {
+  const std::string text = obj(cube());
+  const std::size_t face = text.find("f ");
+  const auto corners = [&](const std::string& begin, const std::string& end) {
+    std::string changed = text.substr(0, face);
+    for (const auto& quad : cube().polygons) {
+      changed += "f";
+      for (const std::int32_t index : quad)
+        changed += " " + begin + std::to_string(index + 1) + end;
+      changed += "\n";
+    }
+    return changed;
+  };
+  for (const char* line : {"vt .5 .5", "vn .6 .8 0", "vt .5", "vn nan nan nan", "vt 1,5 2,5",
+                           "vn -1.#IND 0 0", "vp .1", "s off", "usemtl .5", "o f 1", "g"})
+    expectCube(read("line.obj", std::string(text).insert(face, std::string(line) + "\n")));
+  for (const auto& [begin, end] : std::vector<std::pair<std::string, std::string>>{
+           {"+", ""}, {"+", "/+1"}, {"", "/1/1"}, {"", "//1"}, {"", "/"}, {"0", "//"}})
+    expectCube(read("corners.obj", corners(begin, end)));
+  expectCube(read("fo.obj", replaced(text, "f ", "fo ")));
+  expectCube(read("dots.obj", replaced(text, ".000000", ".")));
+  expectCube(read("signs.obj", replaced(replaced(text, " 1.0", " +1.0"), ".000000", ".E+00")));
+  expectCube(read("fortran.obj", replaced(text, "11.000000", "1.1D+01")));
+  EXPECT_TRUE(read("fo.obj", replaced(text, "f ", "fo ")).info.notes().empty());
+}
+
+/// DOS ended texts with Ctrl-Z; some programs fill a file's last block with zeros.
+TEST_F(ReadMesh, TextsPaddedBehindTheirEnd_AreRead) {
+  const std::string mark = "\x1a";
+  for (const std::string& padding : {mark, mark + "\r\n", std::string(100, '\0'), mark + mark}) {
+    expectCube(read("padded.stl", asciiStl(cube()) + padding));
+    expectCube(read("padded.obj", obj(cube()) + padding));
+    const Mesh ply = read("padded.ply", asciiPly(cube()) + padding);
+    expectCube(ply);
+    EXPECT_TRUE(ply.info.notes().empty());
+  }
+  EXPECT_EQ(error("a.ply", asciiPly(cube()).substr(0, 400) + std::string(100, '\0')),
+            "a.ply: the PLY mesh is truncated");
+}
+
+/// As other programs write numbers that they could not compute.
+TEST_F(ReadMesh, AsciiPly_NotFiniteIsReadInOtherPropertiesAndRefusedInCoordinates) {
+  const std::string text = asciiPly(cube());
+  const std::string z = "property float z\n";
+  const std::string with_quality = replaced(text, z, z + "property float quality\n");
+  for (const char* value : {"nan", "-nan(ind)", "1.#IND", "-1.#QNAN0", "inf", "-1.#INF"}) {
+    std::string ply = with_quality;
+    for (const char* end : {" 9.000000\n", " 11.000000\n"})
+      ply = replaced(ply, end,
+                     std::string(end).substr(0, std::string(end).size() - 1) + " " + value + "\n");
+    expectCube(read("a.ply", ply));
+    EXPECT_EQ(error("a.ply", replaced(text, " 11.000000", std::string(" ") + value)),
+              std::string("a.ply: line 15: '") + value + "' is not a finite number");
+  }
+}
+
+TEST_F(ReadMesh, AsciiPly_NumbersAreReadHoweverTheyAreWritten) {
+  const std::string text = asciiPly(cube());
+  expectCube(read("dots.ply", replaced(text, ".000000", ".")));
+  expectCube(read("signs.ply", replaced(replaced(text, " 1.0", " +1.0"), ".000000", ".E+00")));
+  expectCube(read("fortran.ply", replaced(text, "11.000000", "1.1D+01")));
+  PolygonMesh small = cube();
+  for (Eigen::Vector3f& vertex : small.vertices) vertex *= 0.5F;
+  expectCube(read("half.ply", replaced(replaced(asciiPly(small), " 0.5", " .5"), "-0.5", "-.5")),
+             0.5);
+}
+
+/// Programs of old Macs end lines with CR alone; a binary body may begin with a byte of LF.
+TEST_F(ReadMesh, PlyWithLinesThatEndInCrAlone_IsRead) {
+  expectCube(read("a.ply", replaced(asciiPly(cube()), "\n", "\r")));
+  PolygonMesh mesh = cube();
+  for (const float x : {-1.0F, -0.16F})
+    for (const bool big_endian : {false, true}) {
+      mesh.vertices[0].x() = x;
+      const std::string ply = binaryPly(mesh, big_endian);
+      const std::size_t body = ply.find("end_header\n") + 11;
+      const Mesh result =
+          read("b.ply", replaced(ply.substr(0, body), "\n", "\r") + ply.substr(body));
+      EXPECT_THAT(result.vertices_m, ::testing::UnorderedElementsAreArray(mesh.vertices));
+    }
+}
+
+TEST_F(ReadMesh, Utf16WithoutMark_IsNamed) {
+  for (const std::string& text : {obj(cube()), asciiPly(cube())})
+    for (const bool big_endian : {false, true}) {
+      std::string wide;
+      for (const char c : text) wide += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
+      const char* name = text.starts_with("ply") ? "a.ply" : "a.obj";
+      EXPECT_EQ(error(name, wide),
+                std::string(name) + ": is UTF-16 or UTF-32 text: save it as UTF-8");
+    }
 }
 
 }  // namespace

@@ -29,12 +29,12 @@ inline PolygonMesh cube() {
   return mesh;
 }
 
-inline std::string textOf(const Eigen::Vector3f& v, const char* between = " ") {
+inline std::string numbersOf(const Eigen::Vector3f& v, const char* between = " ") {
   return std::to_string(v.x()) + between + std::to_string(v.y()) + between + std::to_string(v.z());
 }
 
 /// The indices, each behind a blank.
-inline std::string textOf(const std::vector<std::int32_t>& polygon, std::int32_t shift = 0) {
+inline std::string numbersOf(const std::vector<std::int32_t>& polygon, std::int32_t shift = 0) {
   std::string text;
   for (const std::int32_t index : polygon) text += " " + std::to_string(index + shift);
   return text;
@@ -57,9 +57,9 @@ inline std::string plyHeader(const std::string& encoding, std::size_t vertices, 
 
 inline std::string asciiPly(const PolygonMesh& mesh) {
   std::string text = plyHeader("ascii", mesh.vertices.size(), mesh.polygons.size());
-  for (const Eigen::Vector3f& v : mesh.vertices) text += textOf(v) + "\n";
+  for (const Eigen::Vector3f& v : mesh.vertices) text += numbersOf(v) + "\n";
   for (const auto& polygon : mesh.polygons)
-    text += std::to_string(polygon.size()) + textOf(polygon) + "\n";
+    text += std::to_string(polygon.size()) + numbersOf(polygon) + "\n";
   return text;
 }
 
@@ -77,8 +77,8 @@ inline std::string binaryPly(const PolygonMesh& mesh, bool big_endian) {
 
 inline std::string obj(const PolygonMesh& mesh) {
   std::string text = "# made by hand\n";
-  for (const Eigen::Vector3f& v : mesh.vertices) text += "v " + textOf(v) + "\n";
-  for (const auto& polygon : mesh.polygons) text += "f" + textOf(polygon, 1) + "\n";
+  for (const Eigen::Vector3f& v : mesh.vertices) text += "v " + numbersOf(v) + "\n";
+  for (const auto& polygon : mesh.polygons) text += "f" + numbersOf(polygon, 1) + "\n";
   return text;
 }
 
@@ -111,7 +111,7 @@ inline std::string asciiStl(const PolygonMesh& mesh) {
   std::string text = "solid cube\n";
   for (const auto& triangle : triangles(mesh)) {
     text += "facet normal 0 0 0\nouter loop\n";
-    for (const Eigen::Vector3f& v : triangle) text += "vertex " + textOf(v) + "\n";
+    for (const Eigen::Vector3f& v : triangle) text += "vertex " + numbersOf(v) + "\n";
     text += "endloop\nendfacet\n";
   }
   return text + "endsolid cube\n";
@@ -144,8 +144,8 @@ inline std::string gltf(const PolygonMesh& mesh, const std::string& nodes,
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
          R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)" +
          R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
-         std::to_string(mesh.vertices.size()) + R"(,"min":)" + "[" + textOf(box.min(), ",") + "]" +
-         R"(,"max":)" + "[" + textOf(box.max(), ",") + "]" +
+         std::to_string(mesh.vertices.size()) + R"(,"min":)" + "[" + numbersOf(box.min(), ",") + "]" +
+         R"(,"max":)" + "[" + numbersOf(box.max(), ",") + "]" +
          R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)" +
          std::to_string(index_count) +
          R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + positions +
