@@ -46,7 +46,7 @@ TESTS = {
     "core/views": ["views_test"],
     "sessions/annotation": ["annotation_test", "session_test"],
     "sessions/checks": ["checks_test"],
-    "sessions/decision": ["queue_test", "checks_test CheckPose*", WITHOUT_FILES, WITH_FILES],
+    "sessions/decision": ["decision_test", "queue_test", WITHOUT_FILES],
     "sessions/evaluation": ["evaluation_test"],
     "sessions/record": ["onboard_record_test"],
     "sessions/review": ["queue_test", WITHOUT_FILES, WITH_FILES],
