@@ -10,7 +10,7 @@ namespace boresight::sessions {
 namespace {
 
 std::string numberText(double value, const std::string& unit) {
-  const bool large = std::abs(value) >= 1000.0 && std::abs(value) < 1e6;  // not as 9e+03
+  const bool large = std::abs(value) >= 999.5 && std::abs(value) < 1e6;  // not as 9e+03
   const std::string text = large ? formatText("%.0f", value) : threeDigits(value);
   return unit.empty() ? text : text + " " + unit;
 }

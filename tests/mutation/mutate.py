@@ -28,6 +28,8 @@ BUILD = SOURCE / "build" / "release"  # as the tree's own, so that a compiler ca
 
 # The programs that test a folder, the quick ones first, some with a filter.
 CORE_LAST = ["search_test", "localizer_test SameBits.*:Localizer.*:Cameras/*"]
+WITH_FILES = "review_test ValidatedPose.*:SignedPose.*:WholeCase.*"  # minutes
+WITHOUT_FILES = WITH_FILES.replace(" ", " -")
 TESTS = {
     "core/accept": ["accept_test"] + CORE_LAST,
     "core/base": ["base_test", "geometry_test"] + CORE_LAST,
@@ -44,7 +46,11 @@ TESTS = {
     "core/views": ["views_test"],
     "sessions/annotation": ["annotation_test", "session_test"],
     "sessions/checks": ["checks_test"],
-    "sessions/review": ["queue_test", "review_test"],
+    "sessions/decision": ["decision_test", "queue_test", WITHOUT_FILES],
+    "sessions/evaluation": ["evaluation_test"],
+    "sessions/record": ["onboard_record_test"],
+    "sessions/review": ["queue_test", WITHOUT_FILES, WITH_FILES],
+    "sessions/session": ["session_test", "queue_test"],
 }
 CHECKS = "#define _GLIBCXX_ASSERTIONS 1\n"
 

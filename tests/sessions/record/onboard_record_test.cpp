@@ -4,7 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <span>
+#include <utility>
 
+#include "core/base/crc32.h"
+#include "core/localizer/schedule.h"
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/record/recorded_run.h"
 #include "tests/support/all_cases.h"
@@ -143,6 +149,162 @@ TEST(OnboardRecord, MissingBlocks_AreListed) {
   EXPECT_THAT(read.missing, Contains(HasSubstr("did not fit on board")));
 }
 
+/// The blocks of the example's record, to change, leave out and join again.
+std::vector<Bytes> exampleBlocks() {
+  const Bytes& bytes = exampleRun().run.bytes;
+  const std::vector<std::size_t> ends = blockEnds(bytes);
+  std::vector<Bytes> blocks;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    blocks.emplace_back(bytes.begin() + static_cast<std::ptrdiff_t>(ends[i]),
+                        bytes.begin() + static_cast<std::ptrdiff_t>(ends[i + 1]));
+  return blocks;
+}
+
+OnboardRecord parsedBlocks(const std::vector<Bytes>& blocks) {
+  const Bytes& bytes = exampleRun().run.bytes;
+  Bytes joined(bytes.begin(), bytes.begin() + 12);
+  for (const Bytes& block : blocks) joined.insert(joined.end(), block.begin(), block.end());
+  return parseRecord("r.whsr", joined);
+}
+
+void writeU32(std::uint32_t value, std::size_t at, Bytes& bytes) {
+  for (std::size_t i = 0; i < 4; ++i)
+    bytes[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
+}
+
+/// With the length and the checksum of its content.
+void seal(Bytes& block) {
+  writeU32(static_cast<std::uint32_t>(block.size() - 16), 8, block);
+  writeU32(crc32(std::span(block).first(block.size() - 4)), block.size() - 4, block);
+}
+
+std::string typeOf(const Bytes& block) { return {block.begin(), block.begin() + 4}; }
+
+std::size_t firstOf(const std::string& type, const std::vector<Bytes>& blocks) {
+  return static_cast<std::size_t>(std::ranges::find(blocks, type, &typeOf) - blocks.begin());
+}
+
+/// Every block is left out in turn: the rest is read, and each iteration keeps its own templates.
+TEST(OnboardRecord, BlockThatIsLeftOut_IsNamedAndTheRestIsRead) {
+  const std::vector<Bytes> blocks = exampleBlocks();
+  const OnboardRecord& whole = exampleRun().run.record;
+  std::map<std::string, const char*> sentences = {
+      {"INPT", "the hashes of the inputs and the seed"},
+      {"OPTS", "the options"},
+      {"EDGE", "the hash of the image's edges"},
+      {"TMPL", "the templates of iteration "},
+      {"END!", "how the run ended, its pose and its digest"}};
+  const std::string count = std::to_string(whole.iterations.size());
+  const std::string missing_iteration = "1 of " + count + " iterations";
+  sentences["ITER"] = missing_iteration.c_str();
+  for (std::size_t left_out = 0; left_out < blocks.size(); ++left_out) {
+    const std::string type = typeOf(blocks[left_out]);
+    SCOPED_TRACE(type);
+    std::vector<Bytes> rest = blocks;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(left_out));
+    const OnboardRecord read = parsedBlocks(rest);
+    EXPECT_FALSE(read.whole());
+    const std::string number = std::to_string(left_out);
+    if (type == "END!") {
+      EXPECT_THAT(read.missing, Contains("every iteration after the first " + count));
+    } else {
+      EXPECT_THAT(read.missing,
+                  Contains("blocks " + number + " to " + number + " did not fit on board"));
+    }
+    if (sentences.contains(type)) {
+      EXPECT_THAT(read.missing, Contains(HasSubstr(sentences[type])));
+    }
+    EXPECT_EQ(read.inputs.has_value(), type != "INPT");
+    EXPECT_EQ(read.options.empty(), type == "OPTS");
+    EXPECT_EQ(read.edges.has_value(), type != "EDGE");
+    EXPECT_EQ(read.end.has_value(), type != "END!");
+    EXPECT_EQ(read.iterations.size() + (type == "ITER" ? 1 : 0), whole.iterations.size());
+    for (const RecordedIteration& iteration : read.iterations) {
+      const auto& own = whole.iterations[static_cast<std::size_t>(iteration.trace.index)];
+      if (iteration.templates) {
+        EXPECT_EQ(iteration.templates, own.templates);
+      }
+      EXPECT_TRUE(iteration.templates || !own.templates || type == "TMPL");
+      EXPECT_TRUE(own.support || !iteration.support) << "that of another iteration";
+    }
+  }
+}
+
+TEST(OnboardRecord, InvalidBlockUnderAValidChecksum_EndsTheReading) {
+  const std::vector<Bytes> good = exampleBlocks();
+  const auto read = [&good](std::size_t index, const std::function<void(Bytes&)>& edit) {
+    std::vector<Bytes> blocks = good;
+    edit(blocks[index]);
+    seal(blocks[index]);
+    return parsedBlocks(blocks);
+  };
+  const std::size_t iteration = firstOf("ITER", good);
+  std::size_t before = 12;
+  for (std::size_t i = 0; i < iteration; ++i) before += good[i].size();
+  EXPECT_TRUE(read(iteration, [](Bytes&) {}).whole()) << "sealed again, it is the same";
+  const std::function<void(Bytes&)> edits[] = {
+      [](Bytes& block) { block[12 + 8] = 2; },                 // a kind that does not exist
+      [](Bytes& block) { block[12 + 9] = 4; },                 // a level that does not exist
+      [](Bytes& block) { block[12 + 10] = 9; },                // a stage that does not exist
+      [](Bytes& block) { block[12 + 11] = 200; },              // a status that does not exist
+      [](Bytes& block) { block.insert(block.end() - 4, 0); },  // longer than its content
+      [](Bytes& block) { block.erase(block.end() - 5); },      // shorter than its content
+      [](Bytes& block) { block[0] = 'J'; }};                   // a type that does not exist
+  for (const auto& edit : edits) {
+    const OnboardRecord left = read(iteration, edit);
+    EXPECT_THAT(left.iterations, IsEmpty());
+    EXPECT_TRUE(left.inputs && left.edges);
+    EXPECT_THAT(left.missing, Contains("block " + std::to_string(iteration) + " at byte " +
+                                       std::to_string(before) +
+                                       " is unknown to this program: nothing after it was read"));
+  }
+  const OnboardRecord finest = read(iteration, [](Bytes& block) { block[12 + 9] = 3; });
+  EXPECT_EQ(finest.iterations.at(0).trace.level, 3);
+  // A block with the number of an earlier one.
+  const OnboardRecord twice = read(iteration, [&](Bytes& block) {
+    writeU32(static_cast<std::uint32_t>(iteration) - 1, 4, block);
+  });
+  EXPECT_THAT(twice.missing, Contains(HasSubstr("is damaged: nothing after it was read")));
+  EXPECT_THAT(twice.iterations, IsEmpty());
+}
+
+/// The rolls of the hypotheses follow from their number; of the chosen one the record has more.
+TEST(OnboardRecord, RolledHypotheses_AreThoseOfTheirCount) {
+  const std::vector<Bytes> good = exampleBlocks();
+  const std::size_t at = firstOf("ITER", good);
+  const auto read = [&](int count, int chosen) {
+    std::vector<Bytes> blocks = good;
+    writeU32(static_cast<std::uint32_t>(count), 12 + 180, blocks[at]);
+    writeU32(static_cast<std::uint32_t>(chosen), 12 + 184, blocks[at]);
+    writeU32(0x3FC00000, 12 + 188, blocks[at]);  // a roll of 0.125 rad
+    writeU32(0, 12 + 192, blocks[at]);
+    seal(blocks[at]);
+    return parsedBlocks(blocks).iterations.at(0).trace;
+  };
+  for (const auto& [count, chosen] : {std::pair(1, 0), std::pair(3, 2), std::pair(9, 8)}) {
+    const IterationTrace trace = read(count, chosen);
+    EXPECT_EQ(trace.chosen_hypothesis, chosen);
+    ASSERT_EQ(trace.hypotheses.size(), static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+      const HypothesisSummary& hypothesis = trace.hypotheses[static_cast<std::size_t>(i)];
+      EXPECT_EQ(hypothesis.roll_rad, i == chosen ? 0.125 : rollOf(i));
+      EXPECT_EQ(hypothesis.solved, i == chosen);
+      EXPECT_EQ(hypothesis.templates, i == chosen ? trace.template_count : 0);
+      EXPECT_EQ(hypothesis.matches, i == chosen ? trace.correspondence_count : 0);
+      EXPECT_EQ(hypothesis.inliers, i == chosen ? trace.pnp.inlier_count : 0);
+      if (i == chosen) {
+        EXPECT_EQ(hypothesis.camera_from_station, trace.camera_from_station);
+      }
+    }
+  }
+  for (const auto& [count, chosen] :
+       {std::pair(0, 0), std::pair(10, 2), std::pair(3, 3), std::pair(3, -1), std::pair(-1, -2)}) {
+    const IterationTrace trace = read(count, chosen);
+    EXPECT_EQ(trace.chosen_hypothesis, 0) << count << " " << chosen;
+    EXPECT_THAT(trace.hypotheses, IsEmpty());
+  }
+}
+
 TEST(OnboardRecord, RefusesOtherFiles) {
   const TemporaryFolder folder;
   const RecordedRun& run = exampleRun().run;
@@ -153,6 +315,12 @@ TEST(OnboardRecord, RefusesOtherFiles) {
   EXPECT_EQ(message(run.bytes), "(nothing)");
   EXPECT_THAT(message({}), HasSubstr("r.whsr"));
   EXPECT_THAT(message({'P', 'K'}), HasSubstr("is not an onboard record"));
+  for (std::size_t size = 0; size < 12; ++size)
+    EXPECT_NE(message(Bytes(run.bytes.begin(), run.bytes.begin() + static_cast<long>(size))),
+              "(nothing)")
+        << size;
+  EXPECT_THAT(message(Bytes(run.bytes.begin(), run.bytes.begin() + 11)),
+              HasSubstr("ends before its version"));
   Bytes newer = run.bytes;
   newer[11] = 3;
   EXPECT_THAT(message(newer), HasSubstr("is a record of version 3"));

@@ -139,6 +139,41 @@ TEST(RecordOfRun, SaysWhatATraceAloneLacks) {
   EXPECT_EQ(found.verdict, RunVerdict::kEqual);
 }
 
+/// A trace has the support of the pose that was judged last: the flight record has all of them.
+TEST(RecordOfRun, SupportOfEarlierAttempts_IsListedAsMissing) {
+  LocalizerOptions strict = recordedOptions();
+  strict.search.enabled = false;
+  strict.support.min_support = 1.0;
+  const RecordedRun run = recordRun(exampleRun().problem, RunPlan(strict));
+  ASSERT_GT(run.trace.attempts, 1);
+  const OnboardRecord record = recordOf(run.trace, &exampleRun().problem);
+  std::vector<std::string> missing;
+  bool last = true;
+  for (std::size_t i = record.iterations.size(); i-- > 0;) {
+    const bool judged = run.record.iterations[i].support.has_value();
+    EXPECT_EQ(record.iterations[i].support.has_value(), judged && last) << i;
+    if (judged && !last)
+      missing.push_back("the edge support of iteration " + std::to_string(i + 1));
+    if (judged) last = false;
+  }
+  EXPECT_FALSE(last) << "a pose was judged";
+  ASSERT_THAT(missing, Not(IsEmpty()));
+  EXPECT_EQ(record.missing, missing);
+}
+
+TEST(RecordOfRun, Summary_NamesWhatItLacks) {
+  const auto& problem = exampleRun().problem;
+  const auto summary = localize(problem, RunPlan(recordedOptions()), RecordLevel::kSummary);
+  const OnboardRecord record = recordOf(summary, &problem);
+  std::vector<std::string> missing = {"the edges of the image"};
+  for (const RecordedIteration& iteration : exampleRun().run.record.iterations) {
+    const std::string of = " of iteration " + std::to_string(iteration.trace.index + 1);
+    missing.push_back("the render" + of);
+    if (iteration.templates) missing.push_back("the templates" + of);
+  }
+  EXPECT_EQ(record.missing, missing);
+}
+
 TEST(RecordOfRun, OfAHaltedRunHasNoEnd) {
   const LocalizationProblem& problem = exampleRun().problem;
   Runner run(problem, recordedOptions(), {.level = RecordLevel::kStages});
@@ -148,7 +183,18 @@ TEST(RecordOfRun, OfAHaltedRunHasNoEnd) {
   const OnboardRecord record = recordOf(run.trace(), &problem);
   EXPECT_EQ(record.iterations.size(), 1u);
   EXPECT_FALSE(record.end);
-  EXPECT_FALSE(record.whole());
+  EXPECT_THAT(record.missing, Contains("how the run ended: it was halted"));
+}
+
+/// Of a halted run, options that no iteration has had are not in the record.
+TEST(RecordOfRun, ChangeOfOptions_IsRecordedOnceAnIterationHasThem) {
+  LocalizationTrace trace = exampleRun().run.trace;
+  const auto count = static_cast<std::int32_t>(trace.complete());
+  trace.changes = {{1, recordedOptions()}, {count - 1, recordedOptions()}};
+  EXPECT_EQ(recordOf(trace, nullptr).options.size(), 3u);
+  EXPECT_EQ(recordOf(trace, nullptr).options[2].first_iteration, count - 1);
+  trace.changes.back().iteration = count;
+  EXPECT_EQ(recordOf(trace, nullptr).options.size(), 2u);
 }
 
 }  // namespace

@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <stop_token>
+#include <variant>
 
+#include "sessions/io/json/option_value.h"
 #include "sessions/trace/match_details.h"
 #include "sessions/trace/run_text.h"
 #include "tests/sessions/record/recorded_run.h"
@@ -204,12 +208,19 @@ TEST(ReplayRecord, ShowsWhatIsLeftOfACutOrDamagedRecord) {
   }
 }
 
+/// The first iterations of the example's record: replayed in less time than all.
+OnboardRecord beginningOfRecord(std::size_t iterations) {
+  OnboardRecord record = exampleRun().run.record;
+  record.iterations.resize(iterations);
+  return record;
+}
+
 /// Invalid contents under valid checksums do not crash.
 TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
   const ExampleRun& whole = exampleRun();
   Random random = randomFor("ReplayRecord.Nonsense");
   for (int trial = 0; trial < (allCases() ? 30 : 10); ++trial) {
-    OnboardRecord record = whole.run.record;
+    OnboardRecord record = beginningOfRecord(4);
     auto& value = record.iterations[random.below(2)];
     const auto number = [&random] {
       return static_cast<std::int32_t>(random.below(2'000'000'000));
@@ -283,6 +294,154 @@ TEST(RecordedPlan, SaysWhichOptionsItDoesNotKnow) {
                                                           HasSubstr("loop.max_attempts was 99")));
   record.options.clear();
   EXPECT_FALSE(planOf(record).has_options);
+}
+
+/// The plan of a record in which one option has other bits, and perhaps another kind.
+RecordedPlan planWith(const std::string& name, std::uint64_t bits, bool other_kind = false) {
+  OnboardRecord record = exampleRun().run.record;
+  RecordedOption& option =
+      *std::ranges::find(record.options.front().options, name, &RecordedOption::name);
+  if (other_kind)
+    option.kind = option.kind == boresight::OptionKind::kReal ? boresight::OptionKind::kInteger
+                                                              : boresight::OptionKind::kReal;
+  option.bits = bits;
+  return planOf(record);
+}
+
+OptionValue valueIn(const LocalizerOptions& options, const std::string& name) {
+  for (const OptionDescription& option : listOptions(options))
+    if (option.name == name) return option.value;
+  return {};
+}
+
+/// Every option takes the ends of its range, and neither a value beyond them nor another kind.
+TEST(RecordedPlan, EachOption_IsTakenWithinItsRange) {
+  const LocalizerOptions defaults = defaultProfile();
+  for (const OptionDescription& option : listOptions(defaults)) {
+    SCOPED_TRACE(option.name);
+    const bool real = std::holds_alternative<double>(option.value);
+    const bool integer = std::holds_alternative<std::int64_t>(option.value);
+    const auto bits = [real](double value) {
+      return real ? std::bit_cast<std::uint64_t>(value)
+                  : static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+    };
+    const auto refused = Contains(HasSubstr("The option " + option.name + " was "));
+    if (real || integer)
+      for (const double value : {option.minimum, option.maximum}) {
+        const RecordedPlan plan = planWith(option.name, bits(value));
+        EXPECT_THAT(plan.remarks, Not(refused));
+        EXPECT_EQ(valueIn(plan.plan.options, option.name),
+                  real ? OptionValue(value) : OptionValue(static_cast<std::int64_t>(value)));
+      }
+    const double last =
+        option.choices.empty() ? option.maximum : static_cast<double>(option.choices.size()) - 1.0;
+    for (const RecordedPlan& plan : {planWith(option.name, bits(option.minimum), true),
+                                     planWith(option.name, bits(last + 1.0)),
+                                     planWith(option.name, bits(option.minimum - 1.0))}) {
+      EXPECT_THAT(plan.remarks, refused);
+      EXPECT_EQ(valueIn(plan.plan.options, option.name), option.value) << "its default";
+    }
+    if (real) {
+      EXPECT_THAT(planWith(option.name, bits(NAN)).remarks, refused);
+    }
+  }
+}
+
+TEST(RecordedPlan, Changes_FollowTheOptionsOfTheStart) {
+  OnboardRecord record = exampleRun().run.record;
+  const RecordedOptions start = record.options.front();
+  const auto changedAt = [&start](std::int32_t iteration) {
+    RecordedOptions changed = start;
+    changed.first_iteration = iteration;
+    return changed;
+  };
+  record.options = {start, changedAt(2), changedAt(5)};
+  const RecordedPlan plan = planOf(record);
+  EXPECT_THAT(plan.remarks, IsEmpty());
+  ASSERT_EQ(plan.plan.changes.size(), 2u);
+  EXPECT_EQ(plan.plan.changes[0].iteration, 2);
+  EXPECT_EQ(plan.plan.changes[1].iteration, 5);
+  EXPECT_TRUE(sameOptions(plan.plan.changes[1].options, recordedOptions()));
+  // Those of the start are lost, or come twice; a change goes back.
+  record.options = {changedAt(2)};
+  const RecordedPlan lost = planOf(record);
+  EXPECT_FALSE(lost.has_options);
+  EXPECT_THAT(lost.remarks, Contains("The record has no options; the defaults are used."));
+  for (const std::int32_t second : {0, 2}) {
+    record.options = {start, changedAt(2), changedAt(second)};
+    const RecordedPlan invalid = planOf(record);
+    EXPECT_TRUE(invalid.has_options);
+    EXPECT_THAT(invalid.plan.changes, IsEmpty());
+    EXPECT_THAT(invalid.remarks, Contains(StartsWith("Options changed during the run are left")));
+  }
+}
+
+TEST(ReplayRecord, LevelThatDoesNotExist_IsNotRendered) {
+  for (const int level : {-1, kPyramidLevels}) {
+    OnboardRecord record = beginningOfRecord(2);
+    record.iterations[0].trace.level = level;
+    const LocalizationTrace replay = replayRecord(record, exampleRun().problem);
+    EXPECT_TRUE(replay.iterations[0]->render.row_begin.empty());
+    EXPECT_FALSE(replay.iterations[1]->render.row_begin.empty());
+    EXPECT_THAT(replay.remarks,
+                Contains(HasSubstr("The station cannot be rendered in iteration 1")));
+  }
+}
+
+/// Templates on the border of the image and beyond, and on no edge of the render.
+TEST(ReplayRecord, TemplateOutsideTheRender_HasNoPoint) {
+  OnboardRecord record = beginningOfRecord(1);
+  auto& templates = *record.iterations[0].templates;
+  const RenderTrace& render = replayed().iterations[0]->render;
+  templates[0].x = render.edges.width;
+  templates[1].y = render.edges.height;
+  templates[2].x = templates[2].y = 0;
+  const LocalizationTrace replay = replayRecord(record, exampleRun().problem);
+  const IterationTrace& iteration = *replay.iterations[0];
+  for (std::size_t i = 0; i < iteration.templates.size(); ++i)
+    EXPECT_EQ(iteration.templates[i].point_in_station_m.allFinite(), i > 2) << i;
+  EXPECT_THAT(iteration.template_of, Not(testing::AnyOf(Contains(0), Contains(1), Contains(2))));
+  EXPECT_THAT(replay.remarks, Contains("3 of " + std::to_string(templates.size()) +
+                                       " templates lie on no rendered edge in iteration 1; their "
+                                       "points are unknown."));
+}
+
+TEST(ReplayRecord, OtherMaskOrCamera_IsReported) {
+  const auto remarks = [](void (*make)(OnboardRecord&)) {
+    OnboardRecord record = beginningOfRecord(1);
+    make(record);
+    return replayRecord(record, exampleRun().problem).remarks;
+  };
+  EXPECT_THAT(remarks([](auto& run) { run.inputs->sha256.ignore[0] ^= 1; }),
+              Contains(HasSubstr("ignore mask differs")));
+  EXPECT_THAT(remarks([](auto& run) { run.inputs->sha256.scene[0] ^= 1; }),
+              Contains(HasSubstr("mesh differs")));
+  EXPECT_THAT(remarks([](auto& run) { run.inputs->sha256.camera[0] ^= 1; }),
+              Contains(HasSubstr("camera differs")));
+  EXPECT_THAT(remarks([](auto& run) { run.inputs->height += 1; }),
+              Contains(HasSubstr("only its poses are shown")));
+  EXPECT_THAT(remarks([](auto& run) { run.inputs.reset(); }), IsEmpty());
+}
+
+TEST(ReplayRecord, AStop_LeavesTheIterationsDoneSoFar) {
+  std::stop_source stop;
+  stop.request_stop();
+  const LocalizationTrace replay =
+      replayRecord(exampleRun().run.record, exampleRun().problem, stop.get_token());
+  EXPECT_THAT(replay.iterations, IsEmpty());
+  EXPECT_EQ(replay.digest, exampleRun().run.trace.digest) << "the record has its end";
+}
+
+/// Without the block of its end: what the iterations show is kept.
+TEST(ReplayRecord, RecordWithoutAnEnd_CountsItsAttempts) {
+  OnboardRecord record = beginningOfRecord(2);
+  record.end.reset();
+  record.iterations.back().trace.attempt = 11;
+  record.iterations.back().support = exampleRun().run.record.iterations.back().support;
+  const LocalizationTrace replay = replayRecord(record, exampleRun().problem);
+  EXPECT_FALSE(replay.finished);
+  EXPECT_EQ(replay.attempts, 12);
+  EXPECT_EQ(replay.support.share(), replayed().support.share());
 }
 
 }  // namespace

@@ -79,5 +79,45 @@ TEST(AnnotationConcern, MaskedErrors_AreNamedByTheRobustSolution) {
       << "the others fit, but are few";
 }
 
+/// Lines mask each other like points do.
+TEST(AnnotationConcern, BadLines_AreNamed) {
+  Random random = randomFor("AnnotationConcern.Lines");
+  AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 2, 8, 0.1);
+  for (const std::size_t bad : {2u, 5u}) {
+    sessions::ImageLine& line = *scene.view.annotations.lines[bad].line;
+    const Eigen::Vector2d along = (line.end - line.start).normalized();
+    const Eigen::Vector2d across_px = 9.0 * Eigen::Vector2d(-along.y(), along.x());
+    line.start += across_px;
+    line.end += across_px;
+  }
+  sessions::CaseAnnotations annotations;
+  annotations.views = {scene.view};
+  const auto solution = sessions::solveCaseAnnotations(annotations, scene.camera_from_station, {});
+  EXPECT_THAT(annotationConcern(solution, qualityOf(0.3)).suspects,
+              ElementsAre(scene.view.annotations.lines[2].id, scene.view.annotations.lines[5].id));
+}
+
+/// The concern is about this case: of the rig's other camera no annotation is named.
+TEST(AnnotationConcern, AnnotationsOfTheOtherCamera_AreNotNamed) {
+  Random random = randomFor("AnnotationConcern.Rig");
+  AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 8, 0, 0.1);
+  sessions::CaseAnnotations annotations;
+  annotations.views = {scene.view, scene.view};
+  for (sessions::PointPair& point : annotations.views[1].annotations.points)
+    point.id = "other " + point.id;
+  annotations.views[0].annotations.points[1].pixel->x() += 12.0;
+  annotations.views[1].annotations.points[3].pixel->x() -= 12.0;
+  const auto solution = sessions::solveCaseAnnotations(annotations, scene.camera_from_station, {});
+  EXPECT_THAT(annotationConcern(solution, qualityOf(0.3)).suspects,
+              ElementsAre(annotations.views[0].annotations.points[1].id));
+}
+
+TEST(AnnotationConcern, TwoReasons_AreTwoSentences) {
+  const AnnotationConcern concern =
+      annotationConcern(solutionWith({{1, 8.0}, {4, -7.0}}), qualityOf(0.9));
+  EXPECT_THAT(concern.text, testing::MatchesRegex("The residuals are [0-9.]+ times the stated "
+                                                  "sigmas\\. Pose known to .*\\."));
+}
+
 }  // namespace
 }  // namespace boresight::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <functional>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -300,6 +302,162 @@ TEST_F(Decide, Rejection_NeedsNoPoseAndCanBeWithdrawn) {
   EXPECT_EQ(reviewStatusOf(again, "a").state, ReviewState::kNew);
   EXPECT_EQ(again.decisions.size(), 2u);
   expectRefused("no decision", [&] { reopened(again, "a", {"Bob", "once more"}); });
+}
+
+TEST_F(Decide, UndecidedCase_IsInTheStateOfItsRunOrAnnotations) {
+  const auto state = [this] { return reviewStatusOf(judged.session, "a").state; };
+  EXPECT_EQ(state(), ReviewState::kConverged);
+  judged.session.runs.back().status = "pnp_failed";
+  EXPECT_EQ(state(), ReviewState::kFailed);
+  judged.session = withAnnotations(judged.session, "a", someAnnotations(random));
+  EXPECT_EQ(state(), ReviewState::kFailed);
+  judged.session.runs.clear();
+  EXPECT_EQ(state(), ReviewState::kAnnotated);
+  judged.session = withAnnotations(judged.session, "a", {});
+  EXPECT_EQ(state(), ReviewState::kNew);
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(judged.session, "a")), "NOT VALIDATED: new");
+}
+
+TEST_F(Decide, StatusText_NamesADecisionThatNoLongerHolds) {
+  Session after = withAnnotations(judged.validatedBy("Ada"), "a", someAnnotations(random));
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(after, "a")),
+            "NOT VALIDATED: converged; the validation by Ada no longer holds: the annotations have "
+            "changed");
+  after = sessions::rejected(judged.session, "a", judged.checks, {"Bob", "blurred"});
+  EXPECT_EQ(after.decisions.back().digest, judged.subject.run->digest);
+  EXPECT_EQ(after.decisions.back().checks.size(), 3u);
+  after = withAnnotations(after, "a", someAnnotations(random));
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(after, "a")),
+            "NOT VALIDATED: converged; the rejection by Bob no longer holds: the annotations have "
+            "changed");
+}
+
+TEST_F(Decide, AwaitingOutdatedValidation_SaysBoth) {
+  judged.session.review.second_person = true;
+  Session after = judged.validatedBy("Ada");
+  after.options = {{"pnp.min_inliers", std::int64_t{20}}};
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(after, "a")),
+            "NOT VALIDATED: converged; validated by Ada, a second person must approve; outdated: "
+            "the run was made with other options");
+}
+
+TEST_F(Decide, DecisionWithoutItsInputsOrPose_DoesNotHold) {
+  Session after = judged.validatedBy("Ada");
+  after.decisions.back().input_fingerprint.clear();
+  EXPECT_EQ(reviewStatusOf(after, "a").dropped, "it does not state its inputs");
+  after = judged.validatedBy("Ada");
+  after.decisions.back().pose.reset();
+  EXPECT_EQ(reviewStatusOf(after, "a").dropped, "it does not state its inputs");
+  after.decisions.back().verdict = sessions::Verdict::kRejected;
+  EXPECT_EQ(reviewStatusOf(after, "a").dropped, "") << "a rejection needs no pose";
+  EXPECT_EQ(reviewStatusOf(after, "a").judgedPose(), nullptr);
+}
+
+TEST_F(Decide, PoseOfAnnotations_NeedsNoRun) {
+  judged.subject.source = sessions::PoseSource::kAnnotation;
+  judged.subject.run.reset();
+  judged.session.runs.clear();
+  judged.session = withAnnotations(judged.session, "a", someAnnotations(random));
+  Session after = judged.validatedBy("Ada");
+  EXPECT_EQ(after.decisions.back().digest, "");
+  EXPECT_EQ(after.decisions.back().input_fingerprint.count("run"), 0u);
+  EXPECT_EQ(reviewStatusOf(after, "a").state, ReviewState::kValidated);
+  after.runs.push_back(randomRun(random, "a"));
+  EXPECT_TRUE(reviewStatusOf(after, "a").holds()) << "a run changes nothing about annotations";
+}
+
+TEST_F(Decide, Concern_NamesWhyAPoseCannotBeValidated) {
+  const auto concern = [](const JudgedCase& of) {
+    return validationConcern(of.session, of.subject);
+  };
+  EXPECT_EQ(concern(judged), "");
+  JudgedCase other = judged;
+  other.subject.run.reset();
+  EXPECT_EQ(concern(other), "there is no finished run");
+  other = judged;
+  other.subject.run->digest = "";
+  EXPECT_EQ(concern(other), "there is no finished run");
+  other = judged;
+  other.session.runs.clear();
+  EXPECT_THAT(concern(other), HasSubstr("not the last run"));
+  other = judged;
+  other.session.runs.back().inputs_sha256 = randomSha256(random);
+  EXPECT_EQ(concern(other), "the inputs have changed since the run: run again");
+  other.subject.source = sessions::PoseSource::kAnnotation;
+  EXPECT_EQ(concern(other), "");
+}
+
+TEST_F(Decide, ChangedInputs_AreListedOnceWithTheirVerb) {
+  using sessions::changedInputsText;
+  const std::map<std::string, std::string> before = {
+      {"truth", "1"}, {"limits", "1"}, {"rig", "1"}, {"later", "1"}};
+  const auto text = [&before](std::map<std::string, std::string> edits) {
+    std::map<std::string, std::string> after = before;
+    for (const auto& [name, value] : edits) {
+      after[name] = value;
+      if (value.empty()) after.erase(name);
+    }
+    return changedInputsText(before, after);
+  };
+  EXPECT_EQ(text({}), "");
+  EXPECT_EQ(text({{"truth", "2"}}), "the truth has changed");
+  EXPECT_EQ(text({{"limits", "2"}}), "the limits of the checks have changed");
+  EXPECT_EQ(text({{"truth", "2"}, {"rig", ""}}), "the truth and the rig have changed");
+  EXPECT_EQ(text({{"later", "2"}}), "later has changed") << "a name of another version";
+  EXPECT_EQ(text({{"names", "1"}, {"truth", "2"}}),
+            "an earlier version made it and did not record the name of case or station: decide "
+            "again");
+  for (const char* plural : {"annotations", "frames", "limits", "other_runs", "input_sigmas"})
+    EXPECT_THAT(changedInputsText({{plural, "1"}}, {{plural, "2"}}),
+                testing::EndsWith(" have changed"))
+        << plural;
+  for (const char* singular : {"inputs", "image", "image_label", "names", "run", "truth", "rig",
+                               "requirement", "end_effector", "onboard_record"})
+    EXPECT_THAT(changedInputsText({{singular, "1"}}, {{singular, "2"}}),
+                testing::EndsWith(" has changed"))
+        << singular;
+}
+
+/// Of the rig's other camera, everything that the comparison of both poses depends on.
+TEST_F(Decide, OtherCameraOfTheRig_IsAnInput) {
+  sessions::SessionCase session_case = *judged.session.findCase("a");
+  session_case.rig = sessions::Rig{"rig", randomPose(random)};
+  judged.session = withCase(judged.session, session_case);
+  session_case.id = "b";
+  judged.session = withCase(judged.session, session_case);
+  const Session before = judged.validatedBy("Ada");
+  const auto dropped = [&before](const char* id,
+                                 const std::function<void(sessions::SessionCase&)>& edit) {
+    return reviewStatusOf(withChanged(before, id, edit), "a").dropped;
+  };
+  const std::string changed = "the rig has changed";
+  for (const char* id : {"a", "b"})
+    EXPECT_EQ(dropped(id, [](auto& item) { item.rig->camera_from_rig.translation_m.x() += 1e-9; }),
+              changed);
+  EXPECT_EQ(dropped("b", [](auto& item) { item.camera.fx += 1e-9; }), changed);
+  EXPECT_EQ(dropped("b", [](auto& item) { item.image.source.sha256[0] ^= 1; }), changed);
+  EXPECT_EQ(dropped("b", [](auto& item) { item.mesh_scale_sigma = 0.05; }), changed);
+  EXPECT_EQ(dropped("b", [](auto& item) { item.rig->id = "another"; }), changed);
+  EXPECT_EQ(dropped("b", [](auto& item) { item.tags = {"dusty"}; }), "");
+  EXPECT_EQ(reviewStatusOf(withAnnotations(before, "b", someAnnotations(random)), "a").dropped,
+            "the annotations have changed");
+  EXPECT_THAT(inputFingerprint(before, "none", ""), IsEmpty());
+}
+
+TEST_F(Decide, CaseThatDoesNotExist_CannotBeDecided) {
+  expectRefused("no case 'x'", [&] { approved(judged.session, "x", {"Bob", "yes"}); });
+  expectRefused("no case 'x'", [&] { sessions::rejected(judged.session, "x", {}, {"Bob", "no"}); });
+  expectRefused("no case 'x'", [&] { reopened(judged.session, "x", {"Bob", "no"}); });
+  expectRefused("to take back", [&] { reopened(judged.session, "a", {"Bob", "no"}); });
+  const Session rejection = sessions::rejected(judged.session, "a", {}, {"Ada", "no"});
+  expectRefused("no validation", [&] { approved(rejection, "a", {"Bob", "yes"}); });
+}
+
+TEST(ReviewStateText, EachState_HasItsText) {
+  const char* const expected[] = {"new",       "converged", "failed",
+                                  "annotated", "validated", "rejected"};
+  for (int i = 0; i < 6; ++i)
+    EXPECT_STREQ(reviewStateText(static_cast<ReviewState>(i)), expected[i]);
 }
 
 }  // namespace

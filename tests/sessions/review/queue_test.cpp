@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
+#include <stdexcept>
 
 #include "sessions/decision/check_limits.h"
 #include "sessions/review/thumbnail.h"
@@ -65,7 +67,10 @@ TEST(CheckMargin, IsRelativeToTheLimitAndNegativeBeyondIt) {
   EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtMost)), -0.5);
   EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtLeast)), 0.5);
   EXPECT_DOUBLE_EQ(*checkMargin(figure(0.0, 4.0, LimitSide::kAtLeast)), -1.0);
+  EXPECT_DOUBLE_EQ(*checkMargin(figure(0.5, 1.0, LimitSide::kAtMost)), 0.5);
+  EXPECT_DOUBLE_EQ(*checkMargin(figure(-3.0, -4.0, LimitSide::kAtMost)), -0.25);
   EXPECT_FALSE(checkMargin(figure(0.0, 0.0, LimitSide::kAtMost)));
+  EXPECT_FALSE(checkMargin(figure(NAN, 1.0, LimitSide::kAtMost)));
   EXPECT_FALSE(checkMargin(Check()));
 }
 
@@ -122,6 +127,126 @@ TEST(QueueRowTest, RowKey_ChangesWithEveryInput) {
   EXPECT_NE(queueKey(judged.session, "a"), before);
 }
 
+/// A row as `whs check` prints it, with every figure another.
+QueueRow rowWithFigures() {
+  QueueRow row;
+  row.case_id = "a";
+  row.group = QueueGroup::kOpen;
+  row.review_state = ReviewState::kConverged;
+  row.run_digest = "0123";
+  row.passed = 20;
+  row.margin = 0.125;
+  row.margin_of = "Inliers";
+  row.from_seed = SeedDistance{1.25, 2.5, 0.75};
+  row.inliers = 31;
+  row.iterations = 9;
+  row.opens_at = 6;
+  return row;
+}
+
+TEST(TroubleText, SaysWhatToDoAboutACase) {
+  QueueRow row = rowWithFigures();
+  EXPECT_EQ(troubleText(row), "20 checks passed, margin 12 %: Inliers");
+  row.margin.reset();
+  EXPECT_EQ(troubleText(row), "20 checks passed");
+  row.checks = {figure(1.0, 2.0, LimitSide::kAtMost), figure(1.0, 2.0, LimitSide::kAtMost),
+                figure(1.0, 2.0, LimitSide::kAtMost)};
+  row.checks[0].title = "Coverage";
+  row.checks[1].title = "Sigma";
+  row.checks[2].title = "Clutter";
+  row.checks[1].state = CheckState::kPassed;
+  row.checks[0].state = CheckState::kFailed;
+  row.failed = 1;
+  EXPECT_EQ(troubleText(row), "1 check failed: Coverage");
+  row.checks[2].state = CheckState::kFailed;
+  row.failed = 2;
+  EXPECT_EQ(troubleText(row), "2 checks failed: Coverage, Clutter");
+  row.trouble = "the run failed";
+  EXPECT_EQ(troubleText(row), "the run failed");
+  row.group = QueueGroup::kDecided;
+  row.review_status_text = "validated by Ada";
+  EXPECT_EQ(troubleText(row), "validated by Ada");
+  row.group = QueueGroup::kAwaits;
+  EXPECT_EQ(troubleText(row), "a second person must approve");
+  row = {};
+  EXPECT_EQ(troubleText(row), "not run yet");
+  row.margin = 0.25;
+  EXPECT_EQ(troubleText(row),
+            "not run in this session; in the results: error 75 % of the requirement");
+}
+
+TEST(QueueTable, HasEveryFigureInItsUnit) {
+  const std::string text = queueText({rowWithFigures(), QueueRow()});
+  EXPECT_THAT(text, testing::ContainsRegex(
+                        "\na +converged +0 +20 +12 % +1\\.25 +2\\.50 +75 % +31 +7/9 *\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n +new +0 +0 +- +- +- +- +0 +- *\n"));
+  EXPECT_THAT(text, HasSubstr("\na: 20 checks passed, margin 12 %: Inliers\n"));
+}
+
+TEST(QueueTable, CsvHasAllDigits) {
+  EXPECT_EQ(
+      queueCsv({rowWithFigures(), QueueRow()}),
+      "case,state,checks_failed,checks_passed,margin,margin_of,from_seed_mm,from_seed_mrad,"
+      "from_seed_share,inliers,iterations,look_at_iteration,run,trouble\r\n"
+      "a,converged,0,20,0.125,Inliers,1.25,2.5,0.75,31,9,7,0123,\"20 checks passed, margin 12 "
+      "%: Inliers\"\r\n"
+      ",new,0,0,,,,,,0,0,,,not run yet\r\n");
+  QueueRow first = rowWithFigures();
+  first.opens_at = 0;
+  EXPECT_THAT(queueCsv({first}), HasSubstr(",31,9,1,0123,"));
+  EXPECT_THAT(queueText({first}), HasSubstr(" 1/9"));
+}
+
+TEST(QueueRowTest, RowKey_ChangesWithTheRunsOfTheRig) {
+  Random random(8);
+  test::JudgedCase judged(random);
+  SessionCase session_case = *judged.session.findCase("a");
+  session_case.rig = Rig{"rig", Pose()};
+  judged.session = withCase(judged.session, session_case);
+  session_case.id = "b";
+  judged.session = withCase(judged.session, session_case);
+  const std::string before = queueKey(judged.session, "a");
+  EXPECT_NE(queueKey(judged.session, "b"), before);
+  judged.session.runs.push_back(test::randomRun(random, "b"));
+  const std::string with_run = queueKey(judged.session, "a");
+  EXPECT_NE(with_run, before);
+  judged.session.runs.back().digest = test::randomSha256(random);
+  EXPECT_NE(queueKey(judged.session, "a"), with_run);
+  judged.session.runs.back().together =
+      TogetherRecord{{{"b", "converged"}, {"a", "converged"}}, ""};
+  const std::string together = queueKey(judged.session, "a");
+  judged.session.runs.back().digest = test::randomSha256(random);
+  EXPECT_NE(queueKey(judged.session, "a"), together) << "its run is that of the row's case, too";
+}
+
+TEST(QueueRowTest, UnreadableCase_HasTheReasonAsTrouble) {
+  Random random(9);
+  test::JudgedCase judged(random);
+  EXPECT_THROW((void)queueRow(judged.session, "none"), std::invalid_argument);
+  const QueueRow unread = queueRow(judged.session, "a", nullptr, "it is locked");
+  EXPECT_EQ(unread.group, QueueGroup::kNoPose);
+  EXPECT_EQ(unread.run_digest, judged.subject.run->digest);
+  EXPECT_EQ(troubleText(unread), "it is locked");
+  EXPECT_FALSE(unread.subject);
+  EXPECT_EQ(queueRow(judged.session, "a").group, QueueGroup::kNoPose) << "its image is not there";
+  judged.session.runs.clear();
+  EXPECT_EQ(queueRow(judged.session, "a").group, QueueGroup::kNotRun);
+  EXPECT_EQ(troubleText(queueRow(judged.session, "a", nullptr, "it is locked")), "it is locked");
+}
+
+TEST(QueueRowTest, FaultInTheProgress_ReachesTheCaller) {
+  Random random(10);
+  test::JudgedCase judged(random);
+  for (const int jobs : {-1, 0, 1, 3})
+    EXPECT_THROW((void)queueRows(judged.session, jobs, {},
+                                 [](const QueueRow&, std::size_t, std::size_t) {
+                                   throw std::runtime_error("no room");
+                                 }),
+                 std::runtime_error);
+  EXPECT_EQ(queueRows(judged.session, 0).size(), 1u);
+  EXPECT_THAT(queueRows({}), IsEmpty());
+}
+
 /// The example's cases: one run as it is, one that cannot converge, one whose image is gone.
 struct ExampleQueue {
   test::TemporaryFolder folder;
@@ -155,6 +280,19 @@ const Session& exampleQueue() {
 const QueueRow& rowOf(const std::vector<QueueRow>& rows, const std::string& id) {
   return *std::find_if(rows.begin(), rows.end(),
                        [&](const QueueRow& row) { return row.case_id == id; });
+}
+
+/// The margin of a row is the least of its checks in this state.
+void expectNearestMargin(const QueueRow& row, CheckState state) {
+  ASSERT_TRUE(row.margin);
+  bool found = false;
+  for (const Check& check : row.checks) {
+    const auto margin = checkMargin(check);
+    if (check.state != state || !margin) continue;
+    EXPECT_GE(*margin, *row.margin) << check.title;
+    found |= *margin == *row.margin && check.title == row.margin_of;
+  }
+  EXPECT_TRUE(found) << row.margin_of;
 }
 
 TEST(QueueOfExample, ListsTroubleFirstWithItsReason) {
@@ -193,10 +331,40 @@ TEST(QueueOfExample, ARowSufficesToDecide) {
             }));
   ASSERT_EQ(row.failed, 0) << troubleText(row);
   EXPECT_THAT(troubleText(row), testing::MatchesRegex("[0-9]+ checks passed, margin [0-9]+ %: .*"));
+  expectNearestMargin(row, CheckState::kPassed);
+  const LocalizationTrace trace = loadRun(*session.lastRunOf(id));
+  EXPECT_EQ(row.run_digest, trace.digest);
+  EXPECT_EQ(row.iterations, static_cast<int>(trace.iterations.size()));
+  EXPECT_EQ(row.opens_at, row.iterations - 1) << "the last one";
+  EXPECT_GT(row.inliers, 12);
+  ASSERT_TRUE(row.from_seed);
+  EXPECT_GT(row.from_seed->share, 0.0);
+  EXPECT_LT(row.from_seed->share, 1.0);
+  EXPECT_THAT(row.subject->loaded->image.pixels, IsEmpty()) << "rows are kept without data";
+  EXPECT_THAT(row.subject->run->iterations, IsEmpty());
+  EXPECT_FALSE(row.subject->run->edges);
   const Session after = validated(session, *row.subject, row.checks, {}, {"Ada", "as drawn"});
   EXPECT_EQ(reviewStatusOf(after, id).state, ReviewState::kValidated);
   EXPECT_EQ(after.decisions.back().pose->camera_from_station,
             loadRun(*session.lastRunOf(id)).camera_from_station);
+}
+
+/// Of the failed checks, the margin of a row is that of the worst.
+TEST(QueueOfExample, FailedChecks_GiveTheMarginAndAChangedSeedTheTrouble) {
+  Session session = exampleQueue();
+  const std::string id = session.cases[0]->id;
+  session.review.limits = {{"check.coverage_percent", 100.0}, {"check.inlier_count", 9000.0}};
+  const QueueRow row = queueRow(session, id);
+  EXPECT_EQ(row.failed, 2);
+  EXPECT_EQ(row.group, QueueGroup::kOpen);
+  expectNearestMargin(row, CheckState::kFailed);
+  EXPECT_LT(*row.margin, -0.9) << "of 9,000 inliers, that are not there";
+  session = withChanged(session, id, [](SessionCase& item) {
+    item.camera_from_station_seed.translation_m.x() += 1e-3;
+  });
+  const QueueRow stale = queueRow(session, id);
+  EXPECT_EQ(stale.group, QueueGroup::kNoPose);
+  EXPECT_THAT(troubleText(stale), HasSubstr("inputs have changed since the run"));
 }
 
 TEST(QueueOfExample, AStopLeavesOutWhatHasNotBegun) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <stop_token>
+#include <utility>
+
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/matchers.h"
@@ -55,6 +58,119 @@ TEST(RunChangeTest, JudgesByTheTruthWhereItIsKnownAndByTheChecksElsewhere) {
       << "right both times";
   EXPECT_EQ(changeBetween(converged(0, 2.00), converged(0, 2.05)), RunChange::kSame)
       << "less than a tenth of the requirement";
+}
+
+RunDifference differenceOf(const RunSide& before, const RunSide& after) {
+  RunDifference difference;
+  difference.case_id = "a";
+  difference.before = before;
+  difference.after = after;
+  judgeChange(difference);
+  return difference;
+}
+
+TEST(RunChangeTest, AnAcceptedWrongMesh_IsWorseThanAFailedRun) {
+  RunSide wrong = converged(0, 0.1);
+  wrong.wrong_mesh = true;
+  EXPECT_EQ(changeBetween(failedRun(), wrong), RunChange::kWorse);
+  EXPECT_EQ(changeBetween(wrong, failedRun()), RunChange::kBetter);
+  EXPECT_EQ(differenceOf(wrong, failedRun()).why, "accepted on a wrong mesh before, now failed");
+  RunSide unknown = converged(0);
+  unknown.wrong_mesh = true;
+  unknown.digest = "unknown";
+  EXPECT_EQ(changeBetween(wrong, unknown), RunChange::kSame) << "both are wrong, by no figure";
+}
+
+TEST(RunChangeTest, PoseAtTheRequirement_IsRight) {
+  EXPECT_EQ(changeBetween(converged(0, 0.2), converged(0, 1.0)), RunChange::kSame);
+  EXPECT_EQ(changeBetween(converged(0, 1.0), converged(0, 1.01)), RunChange::kWorse);
+  EXPECT_EQ(changeBetween(converged(0, 2.0), converged(0, 2.125)), RunChange::kWorse);
+  EXPECT_EQ(changeBetween(converged(0, 2.125), converged(0, 2.0)), RunChange::kBetter);
+  EXPECT_EQ(changeBetween(converged(0, 2.0), converged(0, 2.09)), RunChange::kSame);
+}
+
+TEST(RunChangeTest, Reason_NamesBothSides) {
+  EXPECT_EQ(differenceOf(converged(0, 0.5), converged(3, 1.5)).why,
+            "error 50 % of the requirement before, now error 150 % of the requirement");
+  EXPECT_EQ(differenceOf(failedRun(), converged(3, 0.25)).why,
+            "failed before, now error 25 % of the requirement");
+  EXPECT_EQ(differenceOf(converged(0), converged(1)).why,
+            "all checks passed before, now 1 check failed");
+  EXPECT_EQ(differenceOf(converged(2), failedRun()).why,
+            "2 checks failed before, now the run failed");
+  RunSide again = converged(2);
+  again.digest = "again";
+  EXPECT_EQ(differenceOf(converged(2), again).why, "2 checks failed before and now");
+  EXPECT_EQ(differenceOf(again, again).why, "bit for bit");
+}
+
+TEST(DifferenceText, HasALinePerThingThatChanged) {
+  RunSide before = converged(1, 0.5);
+  before.status = "converged";
+  before.iterations = 9;
+  before.inliers = 31;
+  before.checks_passed = 20;
+  RunSide after = failedRun();
+  after.status = "pnp_failed";
+  after.iterations = 4;
+  after.inliers = 3;
+  after.checks_passed = 2;
+  RunDifference difference = differenceOf(before, after);
+  const auto lines = [&difference] {
+    std::vector<std::string> texts;
+    for (const DifferenceLine& line : differenceLines(difference))
+      texts.push_back(line.label + " | " + line.before + " | " + line.after);
+    return texts;
+  };
+  EXPECT_THAT(lines(),
+              ElementsAre("Status | converged, 9 iterations | pnp_failed, 4 iterations",
+                          "Inliers | 31 | 3", "Checks | 20 passed, 1 failed | 2 passed, 5 failed"));
+  difference.before.error.emplace();
+  difference.before.error->normal_mm = 1.5;
+  difference.before.error->lateral_mm = 2.25;
+  difference.before.error->rotation_mrad = 0.125;
+  difference.checks = {{"Coverage", CheckState::kPassed, CheckState::kNotApplicable}};
+  difference.options = {{"pnp.seed", "1", "2"}};
+  EXPECT_THAT(lines(), testing::IsSupersetOf(
+                           {"Error: along, across, rotation | 1.50 mm, 2.25 mm, 0.12 mrad | -",
+                            "Coverage | passed | not applicable", "pnp.seed | 1 | 2"}));
+  std::swap(difference.before.error, difference.after.error);
+  EXPECT_THAT(lines(),
+              Contains("Error: along, across, rotation | - | 1.50 mm, 2.25 mm, 0.12 mrad"));
+  EXPECT_THAT(differenceText(difference), Not(HasSubstr("Final poses")));
+  difference.after.converged = true;
+  difference.comparison.translation_mm = 1.25;
+  difference.comparison.rotation_mrad = 0.5;
+  EXPECT_THAT(differenceText(difference),
+              HasSubstr("Final poses 1.250 mm and 0.500 mrad apart at the camera.\n"));
+  difference.before.converged = false;
+  EXPECT_THAT(differenceText(difference), Not(HasSubstr("Final poses")));
+  EXPECT_EQ(changeText(difference), "Worse: error 50 % of the requirement before, now failed.");
+  difference.inputs_differ = true;
+  difference.comparison.first = FirstDifference{RunPart::kSeed, -1, -1, "the seeds differ"};
+  EXPECT_EQ(changeText(difference),
+            "Worse: error 50 % of the requirement before, now failed. The inputs of the runs "
+            "differ. First difference: seed: the seeds differ.");
+}
+
+TEST(OptionChangesTest, EachChangedOption_IsListedWithItsUnit) {
+  LocalizerOptions before;
+  LocalizerOptions after = before;
+  EXPECT_THAT(optionChanges(before, after), IsEmpty());
+  after.pnp.min_inliers = 99;
+  after.loop.inlier_threshold_px = 7.5;
+  after.search.enabled = !before.search.enabled;
+  const auto changes = optionChanges(before, after);
+  ASSERT_THAT(changes, SizeIs(3));
+  for (const OptionChangeText& change : changes) {
+    EXPECT_NE(change.before, change.after) << change.name;
+    if (change.name == "pnp.min_inliers") {
+      EXPECT_EQ(change.after, "99");
+    }
+    if (change.name == "loop.inlier_threshold_px") {
+      EXPECT_EQ(change.after, "7.5 px");
+    }
+  }
 }
 
 class RunDifferenceTest : public ::testing::Test {
@@ -135,6 +251,33 @@ TEST_F(RunDifferenceTest, RunListLines_OfAnotherSeedAndOption_NameBothAndTheDist
   lines = linesOfRuns();
   EXPECT_FALSE(lines[1].moved);
   EXPECT_EQ(lines[1].changed, "inputs");
+}
+
+/// Three options are named; of more, two and the number of the others.
+TEST_F(RunDifferenceTest, RunListLines_OfManyOptions_CountTheOthers) {
+  const OptionList three = {{"pnp.min_inliers", std::int64_t{13}},
+                            {"pnp.seed", std::int64_t{5}},
+                            {"support.min_support", 0.1}};
+  OptionList four = three;
+  four.emplace_back("refinement.enabled", false);
+  OptionList other = {{"loop.max_iterations", std::int64_t{30}}};
+  run(four);
+  run(other);
+  other.insert(other.end(), three.begin(), three.end());
+  run(other);
+  other.emplace_back("refinement.enabled", false);
+  run(other);
+  const std::vector<RunRecord> runs(session_.runs.begin(), session_.runs.end());
+  const auto loaded = loadCase(*session_.findCase(id_));
+  const auto lines = runListLines(runs, *loaded);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_THAT(lines[1].changed, testing::EndsWith(" and 3 other options"));
+  EXPECT_THAT(lines[2].changed, AllOf(HasSubstr("pnp.min_inliers"), HasSubstr("pnp.seed"),
+                                      HasSubstr("support.min_support"), Not(HasSubstr("other"))));
+  EXPECT_EQ(lines[3].changed, "refinement.enabled true -> false");
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(runListLines(runs, *loaded, stop.get_token())[1].changed, "");
 }
 
 TEST_F(RunDifferenceTest, PoseDistanceText_GivesMillimetresDegreesAndPixels) {

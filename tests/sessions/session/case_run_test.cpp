@@ -334,6 +334,10 @@ TEST_F(PackedMembers, MeshBuffers_AreStatedAndInTheMeshsFolder) {
   };
   EXPECT_THAT(plan.files,
               ElementsAre(named("/image.png"), named("/cube.gltf"), named("/cube.bin")));
+  folder_.write("mesh/padded.bin", buffer + std::string(3, '\0'));
+  EXPECT_EQ(refusal(withBuffer("padded.bin")), "(nothing)") << "to a multiple of four bytes";
+  folder_.write("mesh/padded.bin", buffer + std::string(4, '\0'));
+  EXPECT_THAT(refusal(withBuffer("padded.bin")), HasSubstr("byteLength: is "));
   folder_.write("mesh/long.bin", buffer + "root:x:0:0");
   EXPECT_THAT(refusal(withBuffer("long.bin")),
               HasSubstr("cases[0].parts[0]: mesh/cube.gltf: buffers[0].byteLength: is "));

@@ -165,5 +165,41 @@ TEST(MaskEdits, AnEditedCaseIsReloadedAsItWouldBeLoaded) {
   EXPECT_EQ(reloaded->scene.view().faces.size(), before->scene.view().faces.size());
 }
 
+TEST(StrokeText, NamesKindAndSize) {
+  MaskStroke stroke = polygon("");
+  EXPECT_EQ(strokeText(stroke), "polygon of 3 corners");
+  stroke.name = "gripper";
+  stroke.erase = true;
+  EXPECT_EQ(strokeText(stroke), "gripper (erase: polygon of 3 corners)");
+  stroke.name = "";
+  stroke.kind = StrokeKind::kBrush;
+  stroke.radius_px = 2.5;
+  EXPECT_EQ(strokeText(stroke), "erase: brush, 5 px wide");
+  stroke.kind = StrokeKind::kSaturation;
+  stroke.erase = false;
+  stroke.level = 200;
+  EXPECT_EQ(strokeText(stroke), "pixels of at least 200");
+  stroke.level = 1;
+  EXPECT_EQ(strokeText(stroke), "pixels of at least 1");
+  stroke.level = 0;
+  EXPECT_EQ(strokeText(stroke), "all pixels");
+}
+
+TEST(MaskEdits, CasesOfOneCamera_HaveItsImageSizeToo) {
+  Session session = threeCases();
+  EXPECT_EQ(casesOfSameCamera(session, "a"), std::vector<std::string>{"b"});
+  EXPECT_TRUE(casesOfSameCamera(session, "c").empty());
+  EXPECT_TRUE(casesOfSameCamera(session, "none").empty());
+  for (const auto side : {&ImageInput::width, &ImageInput::height}) {
+    const Session other =
+        withChanged(session, "b", [side](SessionCase& item) { ++(item.image.*side); });
+    EXPECT_TRUE(casesOfSameCamera(other, "a").empty());
+  }
+  EXPECT_TRUE(namedStrokesOfCamera(session, "none").empty());
+  EXPECT_EQ(copyingStroke(session, "none", 0), session);
+  session = withStroke(withStroke(session, "a", polygon("x")), "b", polygon("x"));
+  EXPECT_TRUE(namedStrokesOfCamera(session, "b").empty()) << "it has it";
+}
+
 }  // namespace
 }  // namespace boresight::test

@@ -238,5 +238,86 @@ TEST_F(LabelledImage, IsPackedWithItsPixels) {
   EXPECT_EQ(readImage(again.cases[0]->image.source.file).pixels_sha256, digest_);
 }
 
+TEST(InputCheck, LostTracesOfRuns_AreFoundInTheFolderOfRuns) {
+  const TemporaryFolder folder;
+  Session session = makeSession(copyOfExamples(folder) / "dataset.json");
+  RunRecord run;
+  run.case_id = session.cases[0]->id;
+  run.digest = std::string(64, 'd');
+  run.file = "/elsewhere/s.runs/d.trace";
+  session.runs.push_back(run);
+  EXPECT_THAT(checkInputs(session),
+              ElementsAre(finding(FindingKind::kMissing, "run", "trace of a run is missing")));
+  EXPECT_THAT(findMissing(session, folder / "s.json"), IsEmpty());
+  const auto moved = folder.write("s.runs/d.trace", "a trace");
+  const auto relinks = findMissing(session, folder / "s.json");
+  EXPECT_THAT(relinks, ElementsAre(Relink{run.file, moved}));
+  const Session found = relinked(session, relinks);
+  EXPECT_EQ(found.runs[0].file, moved);
+  EXPECT_THAT(checkInputs(found), IsEmpty());
+  EXPECT_THAT(findMissing(found, folder / "s.json"), IsEmpty());
+}
+
+TEST(InputCheck, AcceptedParts_AreThoseOfTheSameFileAndHash) {
+  const TemporaryFolder folder;
+  const Session session = makeSession(copyOfExamples(folder) / "dataset.json");
+  SessionCase before = *session.cases[0];
+  before.parts.push_back(before.parts[0]);
+  before.parts.push_back(before.parts[0]);
+  SessionCase accepted = before;
+  for (MeshInput& part : accepted.parts) part.sha256 = std::string(64, 'e');
+  accepted.image.source.sha256 = std::string(64, 'f');
+  accepted.ignore = InputFile{"/mask.png", std::string(64, 'e')};
+  accepted.onboard_record = InputFile{"/r.whsr", std::string(64, 'e')};
+  SessionCase now = before;
+  now.parts[0].sha256 = std::string(64, 'a');  // accepted meanwhile
+  now.parts[2].source.mesh = "/another.ply";
+  now.image.eight_bit.bit_depth = 7;
+  SessionCase expected = now;
+  expected.parts[1].sha256 = std::string(64, 'e');
+  expected.ignore = accepted.ignore;
+  expected.onboard_record = accepted.onboard_record;
+  EXPECT_EQ(*withAccepted(withCase(session, now), before, accepted).findCase(before.id), expected);
+  now.parts.pop_back();
+  now.ignore = InputFile{"/own.png", std::string(64, 'b')};
+  now.onboard_record = InputFile{"/own.whsr", std::string(64, 'b')};
+  expected = now;
+  expected.parts[1].sha256 = std::string(64, 'e');
+  EXPECT_EQ(*withAccepted(withCase(session, now), before, accepted).findCase(before.id), expected);
+}
+
+TEST(InputCheck, Conversions_AreTakenWhereTheImageIsStillTheSame) {
+  const TemporaryFolder folder;
+  const Session session = makeSession(copyOfExamples(folder) / "dataset.json");
+  const SessionCase& first = *session.cases[0];
+  ImageReadOptions levels;
+  levels.bit_depth = 8;
+  levels.levels = GrayLevels{10, 200};
+  const ImageInput image = converted(first.image, levels);
+  EXPECT_EQ(image.eight_bit, levels);
+  EXPECT_EQ(image.source, first.image.source);
+  EXPECT_NE(image.pixels_sha256, first.image.pixels_sha256);
+  const Session next = withConversions(session, {{first.id, image}});
+  EXPECT_EQ(next.cases[0]->image, image);
+  EXPECT_NO_THROW((void)loadCase(*next.cases[0]));
+  Session replaced = withChanged(session, first.id, [](SessionCase& item) {
+    item.image.source.sha256 = std::string(64, 'a');
+  });
+  EXPECT_EQ(withConversions(replaced, {{first.id, image}}), replaced);
+}
+
+TEST(InputCheck, SameMissingFileOfTwoCases_IsSearchedOnceAndReportedForBoth) {
+  const TemporaryFolder folder;
+  const std::filesystem::path stations = copyOfExamples(folder);
+  Session session = makeSession(stations / "dataset.json");
+  SessionCase twin = *session.cases[0];
+  twin.id = "twin";
+  session = withCase(session, twin);
+  std::filesystem::rename(stations / "bc/model.ply", stations / "bc/renamed.ply");
+  EXPECT_EQ(checkInputs(session).size(), 2u);
+  EXPECT_THAT(findMissing(session, folder / "s.json"),
+              ElementsAre(Relink{stations / "bc/model.ply", stations / "bc/renamed.ply"}));
+}
+
 }  // namespace
 }  // namespace boresight::test

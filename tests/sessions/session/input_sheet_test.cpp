@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/base/math.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/io/images/labels/image_label.h"
 #include "tests/sessions/session/example_session.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/matchers.h"
@@ -184,6 +187,192 @@ TEST(ReadImage, TakesAGivenTable) {
   options.table.pop_back();
   EXPECT_EQ(folder.message([&] { (void)readImage(folder / "t.png", options); }),
             "t.png: table: has 3 entries, but 2 bits need 4");
+}
+
+/// 1000 pixels: `high` of them in one gray level, the others in another one.
+GrayImage twoGrays(std::uint8_t low, std::uint8_t high, std::size_t high_count) {
+  GrayImage image;
+  image.width = 50;
+  image.height = 20;
+  image.pixels.assign(1000, low);
+  std::fill_n(image.pixels.begin(), high_count, high);
+  return image;
+}
+
+TEST(ImageSheetTest, Grays_AreMeasuredAndFlaggedBeyondTheirLimits) {
+  const ImageSheet sheet = imageSheet(twoGrays(10, 255, 20));
+  EXPECT_EQ(sheet.lowest_gray, 10);
+  EXPECT_EQ(sheet.highest_gray, 255);
+  EXPECT_DOUBLE_EQ(sheet.saturated_share, 0.02);
+  EXPECT_THAT(codes(sheet.flags), IsEmpty()) << "two percent";
+  const ImageSheet saturated = imageSheet(twoGrays(10, 255, 21));
+  EXPECT_THAT(codes(saturated.flags), ElementsAre("image_saturated"));
+  EXPECT_THAT(saturated.flags[0].text, StartsWith("2.1 % of the image is saturated"));
+  EXPECT_THAT(codes(imageSheet(twoGrays(10, 254, 500)).flags), IsEmpty());
+  EXPECT_THAT(codes(imageSheet(twoGrays(10, 74, 500)).flags), IsEmpty());
+  EXPECT_THAT(codes(imageSheet(twoGrays(10, 73, 500)).flags), ElementsAre("image_few_grays"));
+}
+
+TEST(ImageSheetTest, BitDepth_IsAskedForWhereNothingStatesIt) {
+  GrayImage image = twoGrays(10, 200, 500);
+  EXPECT_THAT(codes(imageSheet(image).flags), IsEmpty());
+  image.sample_bits = 16;
+  EXPECT_THAT(codes(imageSheet(image).flags), ElementsAre("image_bit_depth"));
+  image.bit_depth_stated = true;
+  EXPECT_THAT(codes(imageSheet(image).flags), IsEmpty());
+  image.bit_depth_stated = false;
+  image.bit_depth_of_label = true;
+  EXPECT_THAT(codes(imageSheet(image).flags), IsEmpty());
+  image.notes = {"one", "two"};
+  EXPECT_THAT(imageSheet(image).flags,
+              ElementsAre(RedFlag{"image_note", "one"}, RedFlag{"image_note", "two"}));
+}
+
+/// Stripes of one pixel alternate along one direction alone.
+TEST(InputSheet, StripesAreNoMosaic) {
+  std::vector<std::uint8_t> rows;
+  std::vector<std::uint8_t> columns;
+  std::vector<std::uint8_t> board;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      rows.push_back(y % 2 == 0 ? 200 : 50);
+      columns.push_back(x % 2 == 0 ? 200 : 50);
+      board.push_back((x + y) % 2 == 0 ? 200 : 50);
+    }
+  EXPECT_FALSE(looksLikeMosaic({rows.data(), 40, 40, 40}));
+  EXPECT_FALSE(looksLikeMosaic({columns.data(), 40, 40, 40}));
+  EXPECT_TRUE(looksLikeMosaic({board.data(), 40, 40, 40}));
+  EXPECT_TRUE(looksLikeMosaic({board.data(), 3, 3, 40}));
+  const std::vector<std::uint8_t> flat(1600, 90);
+  EXPECT_FALSE(looksLikeMosaic({flat.data(), 40, 40, 40}));
+}
+
+/// A pinhole's field of view is known in closed form.
+TEST(CameraSheetTest, FieldOfView_IsThatOfThePinhole) {
+  Camera camera = makePinhole(800, 600, 1000.0);
+  camera.fy = 1015.0;
+  camera.cx = 350.0;
+  const CameraSheet sheet = cameraSheet(camera);
+  const auto angle_deg = [](double before_px, double after_px, double focal_px) {
+    return (std::atan(before_px / focal_px) + std::atan(after_px / focal_px)) / kDegree_rad;
+  };
+  EXPECT_NEAR(sheet.field_of_view_x_deg, angle_deg(350.0, 449.0, 1000.0), 1e-9);
+  EXPECT_NEAR(sheet.field_of_view_y_deg, angle_deg(299.5, 299.5, 1015.0), 1e-9);
+  EXPECT_THAT(codes(sheet.flags), IsEmpty());
+  ASSERT_EQ(sheet.lines.size(), 2u);
+  EXPECT_THAT(sheet.lines[0], HasSubstr("800 x 600 px, fx 1000.000, fy 1015.000, cx 350.000, cy "
+                                        "299.500"));
+  EXPECT_THAT(sheet.lines[1],
+              AllOf(StartsWith("field of view 43.47 x 32.88 deg"), HasSubstr("diagonal 5"),
+                    testing::EndsWith("; 1 px is 1.000 mm at 1 m")));
+}
+
+TEST(CameraSheetTest, Camera_IsFlaggedBeyondItsLimits) {
+  const Camera good = makePinhole(1001, 501, 1000.0);
+  const auto flags = [&good](const std::function<void(Camera&)>& edit) {
+    Camera camera = good;
+    edit(camera);
+    return codes(cameraSheet(camera).flags);
+  };
+  const auto off_centre = ElementsAre("camera_off_centre");
+  const auto aspect = ElementsAre("camera_aspect");
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_THAT(flags([side](Camera& camera) { camera.cx += side * 100.0; }), IsEmpty());
+    EXPECT_THAT(flags([side](Camera& camera) { camera.cx += side * 101.0; }), off_centre);
+    EXPECT_THAT(flags([side](Camera& camera) { camera.cy += side * 50.0; }), IsEmpty());
+    EXPECT_THAT(flags([side](Camera& camera) { camera.cy += side * 51.0; }), off_centre);
+  }
+  EXPECT_THAT(flags([](Camera& camera) { camera.fy = 981.0; }), IsEmpty());
+  EXPECT_THAT(flags([](Camera& camera) { camera.fy = 979.0; }), aspect);
+  EXPECT_THAT(flags([](Camera& camera) { camera.fy = 1019.0; }), IsEmpty());
+  EXPECT_THAT(flags([](Camera& camera) { camera.fy = 1021.0; }), aspect);
+  // 2 atan(500 / 233) is 130 degrees.
+  EXPECT_THAT(flags([](Camera& camera) { camera.fx = camera.fy = 235.0; }), IsEmpty());
+  EXPECT_THAT(flags([](Camera& camera) { camera.fx = camera.fy = 231.0; }),
+              ElementsAre("camera_wide"));
+  EXPECT_THAT(codes(cameraSheet(makeCamera(CameraModel::kKannalaBrandt, 1001, 501, 350.0)).flags),
+              Not(Contains("camera_wide")))
+      << "a fisheye may be wide";
+}
+
+TEST(InputSheet, CameraInsideTheStation_IsFlagged) {
+  LoadedCase loaded;
+  loaded.source = loadedOs().source;
+  loaded.image = loadedOs().image;
+  loaded.scene = boxMesh({1.0, 1.0, 1.0});
+  const auto flags = [&loaded](double z_m) {
+    loaded.source.camera_from_station_seed = Pose();
+    loaded.source.camera_from_station_seed.translation_m.z() = z_m;
+    return codes(inputSheet(loaded).flags);
+  };
+  EXPECT_THAT(flags(0.5), Contains("camera_in_station"));
+  EXPECT_THAT(flags(3.0), Not(Contains("camera_in_station")));
+}
+
+TEST(InputSheet, PartThatIsNotMatched_HasNoInside) {
+  SceneMesh cube = boxMesh({1.0, 1.0, 1.0});
+  EXPECT_TRUE(isInside(cube.view(), {0.1, 0.2, 0.3}));
+  cube.parts[0].match = false;
+  EXPECT_FALSE(isInside(cube.view(), {0.1, 0.2, 0.3}));
+}
+
+/// Lines of the example with what the file, the case and the camera say.
+TEST(InputSheet, Lines_DescribeEachInput) {
+  const SessionCase& item = loadedOs().source;
+  const InputSheet sheet = inputSheet(loadedOs());
+  const std::string size =
+      std::to_string(item.camera.width) + " x " + std::to_string(item.camera.height) + " px";
+  EXPECT_THAT(lineOf(sheet, "image"),
+              AllOf(StartsWith("PNG, " + size + ", "), HasSubstr(" channels, 8 bit; ")));
+  EXPECT_THAT(lineOf(sheet, "camera"), testing::EndsWith(", " + size));
+  EXPECT_THAT(lineOf(sheet, "gray"),
+              testing::MatchesRegex("[0-9]+ \\.\\. 255, 4\\.[0-9]+ % saturated"));
+  EXPECT_THAT(lineOf(sheet, "mesh"),
+              AllOf(StartsWith("model.ply, PLY in m, "), testing::EndsWith(" mm across")));
+  EXPECT_THAT(lineOf(sheet, "truth"), StartsWith("given, truth.json"));
+  EXPECT_EQ(lineOf(sheet, "ignored"), "");
+  const BoundingBox bounds = matchedBounds(loadedOs().scene.view());
+  EXPECT_NEAR(std::stod(lineOf(sheet, "station")), 1e3 * (bounds.maximum_m - bounds.minimum_m).x(),
+              0.051);
+  LoadedCase without_seed;
+  without_seed.source = item;
+  without_seed.source.has_seed = false;
+  without_seed.scene = loadedOs().scene;
+  without_seed.image = loadedOs().image;
+  const InputSheet unseeded = inputSheet(without_seed);
+  EXPECT_EQ(lineOf(unseeded, "seed"), "none");
+  EXPECT_THAT(lineOf(unseeded, "station"), Not(HasSubstr("the view is")));
+  EXPECT_THAT(codes(unseeded.flags), ElementsAre("image_saturated"));
+}
+
+TEST(InputSheet, LabelLines_SayWhatTheLabelStates) {
+  ImageLabel label;
+  label.format = "PDS3";
+  label.identifiers = {{"PRODUCT_ID", "A"}};
+  label.camera_remark = "no camera model";
+  const auto value = [&label](const char* name) {
+    InputSheet sheet;
+    sheet.lines = labelLines(label);
+    return lineOf(sheet, name);
+  };
+  EXPECT_EQ(value("label"), "PDS3");
+  EXPECT_EQ(value("PRODUCT_ID"), "A");
+  EXPECT_EQ(value("label's camera"), "no camera model");
+  EXPECT_EQ(value("sub-frame"), "not stated");
+  EXPECT_EQ(value("bit depth"), "");
+  label.bit_depth = 12;
+  EXPECT_EQ(value("bit depth"), "12 bits by the label");
+  LabelSubframe& part = label.subframe.emplace();
+  part.first_sample = 16;
+  part.first_line = 32;
+  part.samples_per_pixel = part.lines_per_pixel = 1.0;
+  EXPECT_EQ(value("sub-frame"),
+            "begins at sample 16, line 32 of the detector (from 0), not down-sampled");
+  part.lines_per_pixel = 2.0;
+  EXPECT_THAT(value("sub-frame"), testing::EndsWith("each pixel is 1.00 x 2.00 of the detector's"));
+  part.samples_per_pixel = 2.0;
+  part.lines_per_pixel = 1.0;
+  EXPECT_THAT(value("sub-frame"), testing::EndsWith("each pixel is 2.00 x 1.00 of the detector's"));
 }
 
 }  // namespace

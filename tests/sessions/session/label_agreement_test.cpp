@@ -113,5 +113,42 @@ TEST_F(LabelAgreement, TransformThatTheLabelContradictsIsFlagged) {
   EXPECT_THAT(flags(), IsEmpty());
 }
 
+TEST_F(LabelAgreement, TransformsAgreeToAMillimetreAndAMilliradian) {
+  const auto flagged = [this](double apart_m, double turned_rad) {
+    Pose near = rover_in_site_;
+    near.translation_m.y() -= apart_m;
+    near.rotation =
+        near.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(turned_rad, Eigen::Vector3d::UnitX()));
+    give(kSite, kRover, near);
+    return !flags().empty();
+  };
+  EXPECT_FALSE(flagged(0.9e-3, 0.9e-3));
+  EXPECT_TRUE(flagged(1.1e-3, 0.0));
+  EXPECT_TRUE(flagged(0.0, 1.1e-3));
+}
+
+TEST_F(LabelAgreement, OneContradictionIsSaidOnce) {
+  give(kRover, kSite, rover_in_site_);
+  one_.frames.push_back(one_.frames.front());
+  EXPECT_THAT(flags(), SizeIs(1));
+  one_.frames.back().file = "other.json";
+  EXPECT_THAT(flags(), SizeIs(2));
+  give(kRover, FrameName{"ARM", {}}, rover_in_site_);
+  EXPECT_THAT(flags(), IsEmpty()) << "the label does not state it";
+}
+
+TEST_F(LabelAgreement, CamerasAgreeToAPixelOnAllOfTheImage) {
+  const auto flagged = [this](double shift_px) {
+    CahvModel shifted = model_;
+    shifted.h_px += shift_px * shifted.a;
+    take(cameraOf(shifted));
+    return !flags().empty();
+  };
+  EXPECT_FALSE(flagged(0.9));
+  EXPECT_TRUE(flagged(1.1));
+  one_.camera.width += 1;
+  EXPECT_THAT(flags(), IsEmpty()) << "the size has a flag of its own";
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -239,5 +239,97 @@ TEST(SessionFile, RefusesToWriteWhatIsNotText) {
   EXPECT_EQ(folder.read("s.json"), "old");
 }
 
+/// A number of the session's JSON with the ends of its range, and values beyond them.
+struct NumberRange {
+  const char* place;
+  json least;
+  json most;
+  json below;
+  json above;
+};
+
+TEST(SessionFile, RangeOfEachNumber_IncludesItsEnds) {
+  const TemporaryFolder folder;
+  json good = goodSession();
+  json& item = good["cases"][0];
+  item["parts"][0]["albedo"] = 0.5;
+  item["feature_size_m"] = 0.1;
+  item["mesh_scale_sigma"] = 0.1;
+  item["image"]["rule"] = "levels";
+  item["image"]["bit_depth"] = 8;
+  item["image"]["black"] = 10;
+  item["image"]["white"] = 20;
+  item["ignore_strokes"] = json::parse(R"([
+      {"kind": "brush", "erase": false, "radius_px": 3.0, "points": [[1.0, 2.0]]},
+      {"kind": "saturation", "erase": false, "level": 200}])");
+  const NumberRange ranges[] = {
+      {"/image/width", 1, 16384, 0, 16385},
+      {"/image/height", 1, 16384, 0, 16385},
+      {"/image/black", 0, 19, -1, 20},
+      {"/image/white", 11, 255, 10, 256},
+      {"/parts/0/normal_threshold_rad", 1e-3, 3.15, 0.9e-3, 3.16},
+      {"/parts/0/depth_threshold_m", 1e-6, 1000.0, 0.9e-6, 1001.0},
+      {"/parts/0/albedo", 0.0, 1.0, -0.1, 1.1},
+      {"/feature_size_m", 1e-6, 100.0, 0.9e-6, 100.1},
+      {"/mesh_scale_sigma", 0.0, 0.1, -0.01, 0.11},
+      {"/ignore_strokes/0/radius_px", 0.0, 16384.0, -0.1, 16385.0},
+      {"/ignore_strokes/0/points/0/0", -1e6, 1e6, -1.1e6, 1.1e6},
+      {"/ignore_strokes/0/points/0/1", -1e6, 1e6, -1.1e6, 1.1e6},
+      {"/ignore_strokes/1/level", 0, 255, -1, 256},
+  };
+  const auto message = [&](const char* place, const json& value) {
+    json session = good;
+    session[json::json_pointer(std::string("/cases/0") + place)] = value;
+    const auto file = folder.write("s.json", session.dump());
+    return folder.message([&] { (void)readSessionFile(file); });
+  };
+  for (const auto& [place, least, most, below, above] : ranges) {
+    for (const json& value : {least, most})
+      EXPECT_EQ(message(place, value), "(nothing)") << place << " " << value;
+    for (const json& value : {below, above})
+      EXPECT_THAT(message(place, value), HasSubstr("s.json: cases[0].")) << place << " " << value;
+  }
+}
+
+/// The largest level of each depth, and a table of as many values as it has levels.
+TEST(SessionFile, LevelsAndTables_FitEachBitDepth) {
+  const TemporaryFolder folder;
+  const auto message = [&folder](const json& rule) {
+    json session = goodSession();
+    session["cases"][0]["image"].update(rule);
+    const auto file = folder.write("s.json", session.dump());
+    return folder.message([&] { (void)readSessionFile(file); });
+  };
+  for (const int depth : {1, 8, 12, 16}) {
+    const int largest = (1 << depth) - 1;
+    const json rule = {{"rule", "levels"}, {"bit_depth", depth}, {"black", 0}, {"white", largest}};
+    EXPECT_EQ(message(rule), "(nothing)") << depth;
+    json beyond = rule;
+    beyond["white"] = largest + 1;
+    EXPECT_THAT(message(beyond), HasSubstr("image.white: "));
+    const json table = {{"rule", "table"},
+                        {"bit_depth", depth},
+                        {"table", std::vector<int>(static_cast<std::size_t>(largest) + 1, 255)}};
+    EXPECT_EQ(message(table), "(nothing)") << depth;
+    json shorter = table;
+    shorter["table"].erase(0);
+    EXPECT_THAT(message(shorter), HasSubstr("image.table: has "));
+  }
+  for (const int depth : {0, 17})
+    for (const char* rule : {"linear", "levels", "table"})
+      EXPECT_THAT(message({{"rule", rule},
+                           {"bit_depth", depth},
+                           {"black", 0},
+                           {"white", 1},
+                           {"table", json::array()}}),
+                  HasSubstr("image."))
+          << rule << " " << depth;
+  EXPECT_THAT(message({{"rule", "table"}, {"bit_depth", 1}, {"table", {0, 256}}}),
+              HasSubstr("image.table[1]: "));
+  EXPECT_THAT(
+      message({{"rule", "levels"}, {"bit_depth", 8}, {"black", 0}, {"white", 1}, {"table", {0}}}),
+      HasSubstr("image.table: given although the rule is levels"));
+}
+
 }  // namespace
 }  // namespace boresight::test
