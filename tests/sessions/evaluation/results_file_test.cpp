@@ -247,7 +247,7 @@ TEST_F(ResultsFile, LeavesOtherFilesAndThoseOfAnotherRunAlone) {
 
 /// SQLite would take the first for an address, and the second for no file.
 TEST(ResultsLock, FileByTwoNames_HasOneLock) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_symlink("r.sqlite", folder / "link.sqlite");
   const auto lock = lockResults(folder / "link.sqlite");
   EXPECT_THROW(lockResults(folder / "r.sqlite"), OutputError);
