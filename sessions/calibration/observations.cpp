@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/scatter.h"
 #include "core/geometry/camera.h"
 #include "sessions/session/case_annotations.h"
 #include "sessions/session/case_run.h"
@@ -12,7 +13,7 @@ namespace {
 
 /// Errors of neighbouring edge places are alike: this number of them an image counts as that many
 /// independent ones. With 200, errors of rendered cameras are 1.75 times the stated sigmas.
-constexpr std::size_t kEdgePlaces = 65;
+constexpr std::int32_t kEdgePlaces = 65;
 constexpr double kSmallestSigma_px = 0.3;
 constexpr double kSmallestWeight = 0.5;  ///< robust weight of a place that the refinement used
 
@@ -47,15 +48,17 @@ CalibrationView runView(const Session& session, const SessionCase& session_case)
   std::vector<const EdgeSample*> used;
   for (const EdgeSample& sample : refinement.samples)
     if (sample.weight > kSmallestWeight) used.push_back(&sample);
-  const std::size_t step = std::max<std::size_t>(1, (used.size() + kEdgePlaces - 1) / kEdgePlaces);
+  const auto count = static_cast<std::int32_t>(used.size());
+  const std::int32_t stride = std::max(1, (count + kEdgePlaces - 1) / kEdgePlaces);
   const double sigma_px = std::max(refinement.rms_px, kSmallestSigma_px);
-  for (std::size_t i = 0; i < used.size(); i += step) {
+  for (std::int32_t k = 0; scattered(k, stride) < count; ++k) {
+    const EdgeSample& sample = *used[static_cast<std::size_t>(scattered(k, stride))];
     Eigen::Vector2d predicted;
-    if (!project(session_case.camera, refinement.camera_from_station * used[i]->point_in_station_m,
+    if (!project(session_case.camera, refinement.camera_from_station * sample.point_in_station_m,
                  predicted))
       continue;
-    view.points.push_back({used[i]->point_in_station_m,
-                           predicted + used[i]->residual_px * used[i]->normal(), used[i]->normal(),
+    view.points.push_back({sample.point_in_station_m,
+                           predicted + sample.residual_px * sample.normal(), sample.normal(),
                            sigma_px});
   }
   return view;
