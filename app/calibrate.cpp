@@ -88,8 +88,7 @@ struct CalibratedSession {
   std::string file;
   Camera camera;
   sessions::CameraCalibration calibration;
-  sessions::CalibrationSigma former;  ///< as stated or assumed
-  std::optional<sessions::CameraReference> reference;
+  sessions::SessionCase one;  ///< with the former camera
 };
 
 /// Differences between the adjusted cameras and that of the first session, in sigmas of the
@@ -129,15 +128,17 @@ void requireSameKind(const CalibratedSession& first, const CalibratedSession& la
 
 void writeCalibrated(const std::string& out, const CalibratedSession& session,
                      const sessions::FreeParameters& free) {
-  const auto sigma = session.calibration.sigma(session.former);
-  if (!sigma)
+  sessions::SessionCase one = session.one;
+  one.calibration_sigma = session.calibration.sigma(sessions::InputSigmas(one).stated);
+  one.camera_covariance.reset();
+  one.camera = session.calibration.camera;
+  if (!session.calibration.undetermined.empty() && !one.calibration_sigma)
     note("calibration_sigma is not written: a parameter is not determined");
   else if (!free.focal || !free.centre)
     note("calibration_sigma of what is not adjusted stays as before: " +
-         fixedText(100.0 * sigma->focal_relative, 3) + " %, " +
-         fixedText(sigma->principal_point_px, 2) + " px");
-  sessions::writeCamera(out,
-                        sessions::CameraFile{session.calibration.camera, session.reference, sigma});
+         calibrationText(sessions::InputSigmas(one)));
+  sessions::writeCamera(
+      out, sessions::CameraFile{one.camera, one.camera_reference, one.calibration_sigma});
 }
 
 int calibrate(const CalibrateArguments& arguments) {
@@ -147,8 +148,7 @@ int calibrate(const CalibrateArguments& arguments) {
     const sessions::Session session = sessions::readSessionFile(file).session;
     sessions::CameraCalibration calibration = calibrateSession(file, arguments, session);
     const sessions::SessionCase& first = *session.cases.front();
-    calibrated.push_back({file, first.camera, std::move(calibration),
-                          sessions::InputSigmas(first).calibration, first.camera_reference});
+    calibrated.push_back({file, first.camera, std::move(calibration), first});
     requireSameKind(calibrated.front(), calibrated.back());
   }
   if (calibrated.size() > 1) printDrift(calibrated);

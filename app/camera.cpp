@@ -50,6 +50,19 @@ void noteEnding(const path& out, CameraModel model) {
          " model; other programs expect the file ending " + needed);
 }
 
+/// Of Hs Hc Vs Vc Theta, from which the sigmas are read back; empty, with a note, where one of them
+/// is assumed.
+Eigen::MatrixXd internalCovariance(const Camera& camera, const sessions::StatedCalibration& sigma) {
+  if (!sigma.focal_relative || !sigma.principal_point_px) {
+    note("a text file cannot state one member of calibration_sigma alone; it is left out");
+    return {};
+  }
+  Eigen::VectorXd one_sigma(5);
+  one_sigma << *sigma.focal_relative * camera.fx, *sigma.principal_point_px,
+      *sigma.focal_relative * camera.fy, *sigma.principal_point_px, 0.0;
+  return one_sigma.cwiseAbs2().asDiagonal();
+}
+
 /// Vectors as text, with their covariance where it is known.
 void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& given) {
   if (!isCahvFamily(given.camera.model))
@@ -69,6 +82,8 @@ void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& 
         inFrame(*given.covariance,
                 given.reference ? given.reference->camera_from_reference.inverse() : Pose())
             .of_vectors;
+  else if (given.calibration_sigma)
+    cahvor_file.internal_covariance = internalCovariance(given.camera, *given.calibration_sigma);
   sessions::writeCahvorFile(arguments.out, cahvor_file);
   if (given.reference)
     note("the vectors are in " + frameText(given.reference->frame) +
@@ -89,9 +104,11 @@ void convertAs(const CameraArguments& arguments, const sessions::CameraFile& giv
   else if (pupilMoves(given.camera))
     note("the entrance pupil moves, which shifts nearby points; state --distance");
   if (given.covariance)
-    note("the covariance of the vectors does not apply to the fitted camera and is left out");
+    note(
+        "the covariance of the vectors does not apply to the fitted camera; its sigmas of focal "
+        "length and principal point are kept");
   if (!arguments.out.empty())
-    sessions::writeFittedCamera(arguments.out, fitted, given.camera,
+    sessions::writeFittedCamera(arguments.out, fitted, given,
                                 path(arguments.file).filename().string(), arguments.distance_m);
 }
 

@@ -201,16 +201,19 @@ std::string outlyingText(const OutlyingView& view) {
          fixedText(view.largest_px, 1) + " px: check for swapped pairs";
 }
 
-std::optional<CalibrationSigma> CameraCalibration::sigma(const CalibrationSigma& former) const {
-  double focal = former.focal_relative;
-  double centre = former.principal_point_px;
+std::optional<StatedCalibration> CameraCalibration::sigma(const StatedCalibration& former) const {
+  StatedCalibration stated = former;
   for (const CalibrationParameter& parameter : parameters) {
-    if (parameter.name == "focal_relative") focal = parameter.sigma;
-    if (parameter.name == "centre_x_px") centre = parameter.sigma;
-    if (parameter.name == "centre_y_px") centre = std::max(centre, parameter.sigma);
+    if (parameter.name == "focal_relative") stated.focal_relative = parameter.sigma;
+    if (parameter.name == "centre_x_px") stated.principal_point_px = parameter.sigma;
+    if (parameter.name == "centre_y_px")
+      stated.principal_point_px =
+          std::max(stated.principal_point_px.value_or(0.0), parameter.sigma);
   }
-  if (!std::isfinite(focal) || !std::isfinite(centre)) return std::nullopt;
-  return CalibrationSigma{focal, centre};
+  const bool known = std::isfinite(stated.focal_relative.value_or(0.0)) &&
+                     std::isfinite(stated.principal_point_px.value_or(0.0));
+  if (!known || stated == StatedCalibration()) return std::nullopt;
+  return stated;
 }
 
 CameraCalibration calibrateCamera(const Camera& camera, std::span<const CalibrationView> views,
@@ -259,8 +262,7 @@ Session withCalibration(const Session& session, const std::string& case_id,
     SessionCase changed = *session_case;
     changed.camera = calibration.camera;
     changed.camera_covariance.reset();  // that of the former camera
-    const CalibrationSigma former = InputSigmas(*session_case).calibration;
-    if (const auto sigma = calibration.sigma(former)) changed.calibration_sigma = sigma;
+    changed.calibration_sigma = calibration.sigma(InputSigmas(*session_case).stated);
     next = withCase(next, std::move(changed));
   }
   return next;

@@ -51,9 +51,9 @@ struct CameraCalibration {
   int degrees_of_freedom = 0;
   std::vector<OutlyingView> outlying;  ///< views with observations far out, the farthest first
 
-  /// For camera.json. Of what was not adjusted the `former` sigma; empty when the focal length or
-  /// the centre was adjusted and is not determined.
-  std::optional<CalibrationSigma> sigma(const CalibrationSigma& former) const;
+  /// For camera.json. Of what was not adjusted the `former` sigma, where that is stated; empty when
+  /// nothing is stated, or the focal length or the centre was adjusted and is not determined.
+  std::optional<StatedCalibration> sigma(const StatedCalibration& former) const;
 };
 
 /// Adjusts the camera and the pose of every view, with a Cauchy loss of 3 sigma. All views are of

@@ -130,22 +130,24 @@ void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& ses
                      const CheckLimits& limits, std::vector<Check>& checks) {
   const InputSigmas known(session_case);
   if (!fit) {
-    const char* why = "The edges do not determine the camera together with the pose.";
-    if (known.calibration_stated) return addNotAsked({kFocal, kCentre}, why, checks);
-    for (const CheckName& name : {kFocal, kCentre})
-      checks.push_back(statedCheck(name, false, why, kUndecidedRemedy));
+    for (const auto& [name, stated] : {std::pair(kFocal, known.stated.focal_relative),
+                                       std::pair(kCentre, known.stated.principal_point_px)}) {
+      const char* why = "The edges do not determine the camera together with the pose.";
+      checks.push_back(stated ? notAskedCheck(name, why)
+                              : statedCheck(name, false, why, kUndecidedRemedy));
+    }
     return;
   }
   const double percent = 100.0 / session_case.camera.fx;
-  checks.push_back(
-      cameraCheck(kFocal, "focal length changes by ",
-                  {percent * fit->focal_px, percent * fit->focal_sigma_px,
-                   100.0 * known.calibration.focal_relative, known.calibration_stated, "%"},
-                  limits.focal_percent, limits.sigmas));
+  checks.push_back(cameraCheck(
+      kFocal, "focal length changes by ",
+      {percent * fit->focal_px, percent * fit->focal_sigma_px,
+       100.0 * known.calibration.focal_relative, known.stated.focal_relative.has_value(), "%"},
+      limits.focal_percent, limits.sigmas));
   checks.push_back(
       cameraCheck(kCentre, "principal point moves by ",
                   {fit->centre_px, fit->centre_sigma_px, known.calibration.principal_point_px,
-                   known.calibration_stated, "px"},
+                   known.stated.principal_point_px.has_value(), "px"},
                   limits.centre_px, limits.sigmas));
 }
 

@@ -66,10 +66,9 @@ ordered_json sigmaJson(const Matrix6d& covariance, const std::optional<Pose>& en
 ordered_json inputSigmasJson(const InputSigmas& sigmas) {
   return {{"mesh_scale_sigma", sigmas.mesh_scale},
           {"mesh_scale_is", sigmas.mesh_scale_stated ? "stated" : "assumed"},
-          {"calibration_sigma", toJson(sigmas.calibration)},
-          {"calibration_is", sigmas.calibration_derived  ? "of the camera's covariance"
-                             : sigmas.calibration_stated ? "stated"
-                                                         : "assumed"}};
+          {"calibration_sigma", toJson(StatedCalibration{sigmas.calibration.focal_relative,
+                                                         sigmas.calibration.principal_point_px})},
+          {"calibration_is", calibrationOrigin(sigmas)}};
 }
 
 ordered_json poseJson(const HandedPose& pose, const SessionCase& session_case) {

@@ -84,8 +84,8 @@ struct SessionCase {
   std::optional<double> feature_size_m;
   /// Relative, one sigma; empty: kAssumedMeshScaleSigma. No input of a run.
   std::optional<double> mesh_scale_sigma;
-  /// Empty: the defaults of CalibrationSigma. No input of a run.
-  std::optional<CalibrationSigma> calibration_sigma;
+  /// What is empty: the defaults of CalibrationSigma. No input of a run.
+  std::optional<StatedCalibration> calibration_sigma;
   /// Of the camera's vectors, in its own frame: used instead of calibration_sigma. No input of a
   /// run.
   std::optional<CameraCovariance> camera_covariance;

@@ -31,10 +31,22 @@ CalibrationSigma assumedCalibration(const Camera& camera) {
 
 const char* sourceText(bool stated) { return stated ? "" : ", assumed"; }
 
-CalibrationSigma calibrationOf(const SessionCase& session_case) {
-  if (session_case.camera_covariance)
-    return calibrationSigmaOf(session_case.camera, *session_case.camera_covariance);
-  return session_case.calibration_sigma.value_or(assumedCalibration(session_case.camera));
+StatedCalibration statedOf(const SessionCase& session_case) {
+  return statedCalibration(CameraFile{session_case.camera, std::nullopt,
+                                      session_case.calibration_sigma,
+                                      session_case.camera_covariance})
+      .value_or(StatedCalibration());
+}
+
+CalibrationSigma usedCalibration(const SessionCase& session_case) {
+  const StatedCalibration stated = statedOf(session_case);
+  const CalibrationSigma assumed = assumedCalibration(session_case.camera);
+  return {stated.focal_relative.value_or(assumed.focal_relative),
+          stated.principal_point_px.value_or(assumed.principal_point_px)};
+}
+
+bool isPartlyStated(const StatedCalibration& stated) {
+  return stated.focal_relative.has_value() != stated.principal_point_px.has_value();
 }
 
 }  // namespace
@@ -54,9 +66,9 @@ Session withStated(const Session& session, const std::string& case_id, const Sta
 
 InputSigmas::InputSigmas(const SessionCase& session_case)
     : mesh_scale(session_case.mesh_scale_sigma.value_or(kAssumedMeshScaleSigma)),
-      calibration(calibrationOf(session_case)),
+      calibration(usedCalibration(session_case)),
       mesh_scale_stated(session_case.mesh_scale_sigma.has_value()),
-      calibration_stated(session_case.calibration_sigma || session_case.camera_covariance),
+      stated(statedOf(session_case)),
       calibration_derived(session_case.camera_covariance.has_value()) {}
 
 std::string meshScaleText(const InputSigmas& sigmas) {
@@ -64,15 +76,30 @@ std::string meshScaleText(const InputSigmas& sigmas) {
 }
 
 std::string calibrationText(const InputSigmas& sigmas) {
-  return threeDigits(100.0 * sigmas.calibration.focal_relative) + " % and " +
-         threeDigits(sigmas.calibration.principal_point_px) + " px" +
+  const std::string focal = threeDigits(100.0 * sigmas.calibration.focal_relative) + " %";
+  const std::string centre = threeDigits(sigmas.calibration.principal_point_px) + " px";
+  if (isPartlyStated(sigmas.stated))
+    return focal + (sigmas.stated.focal_relative ? " and " : " (assumed) and ") + centre +
+           (sigmas.stated.principal_point_px ? "" : " (assumed)");
+  return focal + " and " + centre +
          (sigmas.calibration_derived ? ", by the camera's covariance"
-                                     : sourceText(sigmas.calibration_stated));
+                                     : sourceText(sigmas.stated.focal_relative.has_value()));
+}
+
+std::string calibrationOrigin(const InputSigmas& sigmas) {
+  const auto origin = [](const std::optional<double>& stated) {
+    return std::string(stated ? "stated" : "assumed");
+  };
+  if (sigmas.calibration_derived) return "of the camera's covariance";
+  const StatedCalibration& stated = sigmas.stated;
+  if (!isPartlyStated(stated)) return origin(stated.focal_relative);
+  return "focal_relative " + origin(stated.focal_relative) + ", principal_point_px " +
+         origin(stated.principal_point_px);
 }
 
 Session withInputSigmas(const Session& session, const std::string& case_id,
                         const std::optional<double>& mesh_scale_sigma,
-                        const std::optional<CalibrationSigma>& calibration_sigma) {
+                        const std::optional<StatedCalibration>& calibration_sigma) {
   const SessionCase* chosen = session.findCase(case_id);
   if (chosen == nullptr) return session;
   Session next = session;

@@ -237,6 +237,19 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   EXPECT_TRUE(jsonOf(folder_ / "left.json").contains("covariance"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
               HasSubstr("the vectors belong to a cahvor model"));
+  nlohmann::json stated = jsonOf(folder_ / "left.json");
+  stated.erase("covariance");
+  stated["calibration_sigma"] = {{"focal_relative", 0.001}, {"principal_point_px", 0.25}};
+  folder_.write("left.json", stated.dump());
+  runWhs({"camera", folder_ / "left.json", "--out", text}, 0);
+  const auto kept = sessions::readCameraFile(std::filesystem::path(text)).calibration_sigma;
+  ASSERT_TRUE(kept);
+  EXPECT_NEAR(kept->focal_relative.value(), 0.001, 1e-12);
+  EXPECT_NEAR(kept->principal_point_px.value(), 0.25, 1e-12);
+  stated["calibration_sigma"].erase("principal_point_px");
+  folder_.write("left.json", stated.dump());
+  EXPECT_THAT(runWhs({"camera", folder_ / "left.json", "--out", text}, 0).err,
+              HasSubstr("one member of calibration_sigma alone; it is left out"));
   runWhs({"camera", image_.string()}, 2);
   runWhs({"camera", text, "--as", "pinhole", "--out", text}, 2);
 }

@@ -182,8 +182,8 @@ CameraFile readCahvorCamera(const std::filesystem::path& file) {
     const double focal =
         std::max(sigma(0) / std::abs(camera->camera.fx), sigma(2) / std::abs(camera->camera.fy));
     camera->calibration_sigma =
-        CalibrationSigma{std::min(focal, kMaxFocalSigma),
-                         std::min(std::max(sigma(1), sigma(3)), kMaxPrincipalPointSigma_px)};
+        StatedCalibration{std::min(focal, kMaxFocalSigma),
+                          std::min(std::max(sigma(1), sigma(3)), kMaxPrincipalPointSigma_px)};
   }
   if (!read.covariance.isZero(0.0))
     camera->covariance = inFrame({read.covariance}, camera->reference->camera_from_reference);

@@ -380,11 +380,11 @@ std::string fitText(const FittedCamera& fitted) {
 }
 
 void writeFittedCamera(const std::filesystem::path& file, const FittedCamera& fitted,
-                       const Camera& given, const std::string& given_name, double distance_m) {
+                       const CameraFile& given, const std::string& given_name, double distance_m) {
   nlohmann::ordered_json json = {{"format", "boresight-camera"}, {"version", 1}};
-  json.update(toJson(fitted.camera));
+  json.update(toJson(CameraFile{fitted.camera, std::nullopt, statedCalibration(given)}));
   nlohmann::ordered_json from = {{"file", given_name},
-                                 {"model", cameraModelName(given.model)},
+                                 {"model", cameraModelName(given.camera.model)},
                                  {"worst_error_px", fitted.worst_error_px},
                                  {"rms_error_px", fitted.rms_error_px}};
   if (std::isfinite(distance_m)) {

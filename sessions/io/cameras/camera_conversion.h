@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/camera.h"
+#include "sessions/io/cameras/camera_file.h"
 
 namespace boresight::sessions {
 
@@ -44,8 +45,9 @@ FittedCamera fitCamera(const Camera& given, CameraModel model,
 /// "worst error 0.83 px at (1023, 0), rms 0.21 px", and the counts of points not seen.
 std::string fitText(const FittedCamera& fitted);
 
-/// The fitted camera as camera.json, with its source and its errors in `fitted_from`. OutputError.
+/// The fitted camera as camera.json, with the calibration_sigma of the given one (by its
+/// covariance, if it has one), and its source and its errors in `fitted_from`. OutputError.
 void writeFittedCamera(const std::filesystem::path& file, const FittedCamera& fitted,
-                       const Camera& given, const std::string& given_name, double distance_m);
+                       const CameraFile& given, const std::string& given_name, double distance_m);
 
 }  // namespace boresight::sessions

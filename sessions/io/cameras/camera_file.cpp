@@ -193,14 +193,29 @@ std::string frameText(const FrameName& frame) {
   return frame.name + (index.empty() ? "" : index + ")");
 }
 
-CalibrationSigma readCalibrationSigma(const JsonReader& json) {
-  return {json.at("focal_relative").number(0.0, kMaxFocalSigma),
-          json.at("principal_point_px").number(0.0, kMaxPrincipalPointSigma_px)};
+StatedCalibration readCalibrationSigma(const JsonReader& json) {
+  StatedCalibration sigma;
+  if (const auto focal = json.find("focal_relative"))
+    sigma.focal_relative = focal->number(0.0, kMaxFocalSigma);
+  if (const auto centre = json.find("principal_point_px"))
+    sigma.principal_point_px = centre->number(0.0, kMaxPrincipalPointSigma_px);
+  if (sigma == StatedCalibration())
+    json.fail("states neither focal_relative nor principal_point_px");
+  return sigma;
 }
 
-nlohmann::ordered_json toJson(const CalibrationSigma& sigma) {
-  return {{"focal_relative", sigma.focal_relative},
-          {"principal_point_px", sigma.principal_point_px}};
+nlohmann::ordered_json toJson(const StatedCalibration& sigma) {
+  nlohmann::ordered_json json;
+  if (sigma.focal_relative) json["focal_relative"] = *sigma.focal_relative;
+  if (sigma.principal_point_px) json["principal_point_px"] = *sigma.principal_point_px;
+  return json;
+}
+
+std::optional<StatedCalibration> statedCalibration(const CameraFile& file) {
+  if (!file.covariance) return file.calibration_sigma;
+  const CalibrationSigma sigma = calibrationSigmaOf(file.camera, *file.covariance);
+  return StatedCalibration{std::min(sigma.focal_relative, kMaxFocalSigma),
+                           std::min(sigma.principal_point_px, kMaxPrincipalPointSigma_px)};
 }
 
 const char* cameraModelName(CameraModel model) { return kModelNames[static_cast<int>(model)]; }

@@ -23,8 +23,8 @@ namespace boresight::sessions {
 /// of aluminium. Suitable for a machined part and its drawing, not for a scan.
 inline constexpr double kAssumedMeshScaleSigma = 2e-4;
 
-/// One sigma of a camera's calibration. The defaults apply where none is stated; they are typical
-/// of a calibration from many images of a target.
+/// One sigma of a camera's calibration, as used. The defaults apply where none is stated; they are
+/// typical of a calibration from many images of a target.
 struct CalibrationSigma {
   double focal_relative = 2e-4;     ///< of fx and fy together, as a share of them
   double principal_point_px = 0.5;  ///< per axis
@@ -32,13 +32,21 @@ struct CalibrationSigma {
   bool operator==(const CalibrationSigma&) const = default;
 };
 
+/// The members of a CalibrationSigma that are known, at least one; the others are assumed.
+struct StatedCalibration {
+  std::optional<double> focal_relative;
+  std::optional<double> principal_point_px;
+
+  bool operator==(const StatedCalibration&) const = default;
+};
+
 inline constexpr double kMaxScaleSigma = 0.1;
 inline constexpr double kMaxFocalSigma = 0.1;
 inline constexpr double kMaxPrincipalPointSigma_px = 1000.0;
 
-/// Reads {"focal_relative", "principal_point_px"}. InputError.
-CalibrationSigma readCalibrationSigma(const JsonReader& json);
-nlohmann::ordered_json toJson(const CalibrationSigma& sigma);
+/// Reads {"focal_relative", "principal_point_px"}, of which one may be missing. InputError.
+StatedCalibration readCalibrationSigma(const JsonReader& json);
+nlohmann::ordered_json toJson(const StatedCalibration& sigma);
 
 /// Longest side of an image or a camera, px: edge pixels are stored in 16 bits.
 inline constexpr int kMaxImageSide_px = 16384;
@@ -86,11 +94,14 @@ struct CameraReference {
 struct CameraFile {
   Camera camera;
   std::optional<CameraReference> reference = std::nullopt;
-  std::optional<CalibrationSigma> calibration_sigma = std::nullopt;  ///< where the file states it
+  std::optional<StatedCalibration> calibration_sigma = std::nullopt;  ///< where the file states it
   /// Of the vectors in the camera's own frame, where the file states it; it is then used instead of
   /// calibration_sigma.
   std::optional<CameraCovariance> covariance = std::nullopt;
 };
+
+/// What the file states of the calibration: by its covariance, if it has one.
+std::optional<StatedCalibration> statedCalibration(const CameraFile& file);
 
 /// The camera of vectors that are given in a frame without a name; empty where it cannot project;
 /// kVectorsCannotProject is the message.

@@ -11,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "sessions/session/stated_inputs.h"
 #include "tests/support/coverage.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -139,6 +141,27 @@ TEST(CameraCalibration, SigmaOfWhatIsNotAdjusted_StaysTheFormerOne) {
   ASSERT_TRUE(sigma);
   EXPECT_EQ(sigma->focal_relative, result.parameters[0].sigma);
   EXPECT_EQ(sigma->principal_point_px, 0.7);
+}
+
+TEST(CameraCalibration, AssumedSigmaOfWhatIsNotAdjusted_StaysAssumed) {
+  Random random = test::randomFor("CameraCalibration.Assumed");
+  const auto views = viewsOf(trueCamera(), 4, 0.3, random);
+  const CameraCalibration focal = calibrateCamera(trueCamera(), views, {true, false, false});
+  Session session;
+  SessionCase one;
+  one.id = "a";
+  one.camera = trueCamera();
+  session.cases.push_back(one);
+  session = withCalibration(session, "a", focal);
+  ASSERT_TRUE(session.cases[0]->calibration_sigma);
+  EXPECT_EQ(session.cases[0]->calibration_sigma->focal_relative, focal.parameters[0].sigma);
+  EXPECT_FALSE(session.cases[0]->calibration_sigma->principal_point_px);
+  EXPECT_THAT(calibrationText(InputSigmas(*session.cases[0])), testing::EndsWith(" px (assumed)"));
+  const Camera brown = trueCamera(CameraModel::kBrownConrady);
+  const CameraCalibration distortion =
+      calibrateCamera(brown, viewsOf(brown, 6, 0.3, random), {false, false, true});
+  EXPECT_FALSE(distortion.sigma({})) << "nothing is stated";
+  EXPECT_EQ(distortion.sigma({{}, 0.7}), (StatedCalibration{{}, 0.7}));
 }
 
 TEST(CameraCalibration, IsUsedForTheCasesOfTheCamera) {

@@ -215,7 +215,7 @@ TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
   EXPECT_EQ(focalState(), CheckState::kFailed);
   const auto stated = copyOf(*subject.loaded);
   // Known, to five percent: what the edges ask for is within that.
-  stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
+  stated->source.calibration_sigma = StatedCalibration{0.05, 0.3};
   subject.loaded = stated;
   EXPECT_EQ(focalState(), CheckState::kPassed);
   subject.requirement = {{}, {}, {}, 3.0};
@@ -231,7 +231,7 @@ TEST_F(EdgeChecks, CameraThatTheEdgesDoNotDetermine_FailsUnlessItsCalibrationIsS
   EXPECT_EQ(stateOf("camera_focal"), CheckState::kFailed);
   EXPECT_EQ(stateOf("camera_centre"), CheckState::kFailed);
   const auto stated = copyOf(*black);
-  stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
+  stated->source.calibration_sigma = StatedCalibration{0.05, 0.3};
   subject.loaded = stated;
   EXPECT_EQ(stateOf("camera_focal"), CheckState::kNotApplicable);
 }

@@ -153,7 +153,7 @@ TEST(PoseUncertainty, TheCamerasCovariance_CountsInPlaceOfTheStatedSigmas) {
         .calibration;
   };
   const Matrix6d term = termOf(session_case);
-  session_case.calibration_sigma = CalibrationSigma{0.1, 100.0};
+  session_case.calibration_sigma = StatedCalibration{0.1, 100.0};
   EXPECT_EQ(termOf(session_case), term);
   session_case.camera_covariance->of_vectors *= 4.0;
   EXPECT_LT((termOf(session_case) - 4.0 * term).norm(), 1e-9 * term.norm());
@@ -168,7 +168,7 @@ class BoxUncertainty : public testing::Test {
     SessionCase session_case;
     session_case.camera = box_.camera_;
     session_case.mesh_scale_sigma = mesh_scale_sigma;
-    session_case.calibration_sigma = CalibrationSigma{0.0, 0.0};
+    session_case.calibration_sigma = StatedCalibration{0.0, 0.0};
     return session_case;
   }
   static PoseCovariance covarianceOf(const SessionCase& session_case, const SceneMesh& scene,
@@ -206,7 +206,7 @@ TEST_F(BoxUncertainty, APoseThatShowsNoEdgeIsStillOffByItsCalibration) {
   Pose pose = pose_;
   pose.translation_m.x() = 2.0;  // out of the image
   SessionCase session_case = scaleCase(0.0);
-  session_case.calibration_sigma = CalibrationSigma{0.001, 1.0};
+  session_case.calibration_sigma = StatedCalibration{0.001, 1.0};
   const PoseCovariance covariance = covarianceOf(session_case, box_.scene_, pose);
   EXPECT_NEAR(std::sqrt(covariance.calibration(5, 5)), 0.5e-3, 1e-5);
   EXPECT_NEAR(std::sqrt(covariance.calibration(3, 3)), 0.5e-3, 1e-5) << "1 px at f = 1000 px";

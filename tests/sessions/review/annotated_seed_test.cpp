@@ -19,7 +19,7 @@ class AnnotatedSeedTest : public testing::Test {
     SessionCase before = loaded->source;
     before.has_seed = false;
     before.mesh_scale_sigma = 0.0;
-    before.calibration_sigma = sessions::CalibrationSigma{0.0, 0.0};
+    before.calibration_sigma = sessions::StatedCalibration{0.0, 0.0};
     before.uncertainty.translation_m.setConstant(0.03);
     return withMeasuredSeed(before, loaded->scene.view(), box_.camera_from_station_, covariance);
   }

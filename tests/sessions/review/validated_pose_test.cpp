@@ -503,7 +503,7 @@ class WholeCase : public ValidatedPose {
     left.onboard_record = inputOf("a.whsr");
     left.rig = sessions::Rig{"rig", Pose()};
     left.mesh_scale_sigma = 0.0004;
-    left.calibration_sigma = sessions::CalibrationSigma{0.0003, 0.4};
+    left.calibration_sigma = sessions::StatedCalibration{0.0003, 0.4};
     left.requirement = sessions::Requirement{0.5, 0.5, 0.3, {}};
     left.feature_size_m = 0.01;
     left.tags = {"low sun"};

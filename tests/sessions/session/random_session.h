@@ -86,7 +86,7 @@ inline void addRandomSigmas(Random& random, sessions::SessionCase& session_case)
   if (coin(random)) session_case.mesh_scale_sigma = random.uniform(0.0, 0.1);
   if (coin(random))
     session_case.calibration_sigma =
-        sessions::CalibrationSigma{random.uniform(0.0, 0.1), random.uniform(0.0, 9.0)};
+        sessions::StatedCalibration{random.uniform(0.0, 0.1), random.uniform(0.0, 9.0)};
   if (!coin(random)) return;
   const Vector6d sigma = Vector6d::Constant(random.uniform(1e-4, 1e-2));
   session_case.truth_covariance = sigma * sigma.transpose();

@@ -108,7 +108,7 @@ TEST(SessionMaker, SigmasAndTruth_OfTheDataset_AreKept) {
   });
   for (const auto& session_case : stated.cases) {
     EXPECT_EQ(session_case->mesh_scale_sigma, 0.001);
-    EXPECT_EQ(session_case->calibration_sigma, (CalibrationSigma{0.003, 2.0}));
+    EXPECT_EQ(session_case->calibration_sigma, (StatedCalibration{0.003, 2.0}));
   }
   files.mesh_scale_sigma = 0.002;
   const Matrix6d covariance = 1e-6 * Matrix6d::Identity();
@@ -163,7 +163,8 @@ TEST(InputSigmas, AreStatedForAllCasesOfTheMeshAndOfTheCamera) {
   other.id = "same camera";
   other.camera = session.cases[0]->camera;
   session = withCase(session, other);
-  const Session stated = withInputSigmas(session, session.cases[0]->id, 1e-3, CalibrationSigma{});
+  const Session stated =
+      withInputSigmas(session, session.cases[0]->id, 1e-3, StatedCalibration{2e-4, 0.5});
   EXPECT_EQ(stated.cases[0]->mesh_scale_sigma, 1e-3);
   EXPECT_EQ(stated.findCase("same mesh")->mesh_scale_sigma, 1e-3);
   EXPECT_FALSE(stated.findCase("same mesh")->calibration_sigma);

@@ -25,7 +25,7 @@ InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* 
     box->setValue(value);
   };
   ui_.meshStated->setChecked(sigmas.mesh_scale_stated);
-  ui_.cameraStated->setChecked(sigmas.calibration_stated);
+  ui_.cameraStated->setChecked(sigmas.stated != sessions::StatedCalibration());
   by_covariance_ = sigmas.calibration_derived;
   former_calibration_ = one.calibration_sigma;
   for (QWidget* field :
@@ -39,6 +39,8 @@ InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* 
        kPercent * sessions::kMaxFocalSigma);
   show(ui_.principalPoint, sigmas.calibration.principal_point_px,
        sessions::kMaxPrincipalPointSigma_px);
+  shown_focal_ = ui_.focal->value();
+  shown_centre_px_ = ui_.principalPoint->value();
 }
 
 std::optional<double> InputSigmasDialog::meshScaleSigma() const {
@@ -46,10 +48,15 @@ std::optional<double> InputSigmasDialog::meshScaleSigma() const {
   return ui_.meshScale->value() / kPercent;
 }
 
-std::optional<sessions::CalibrationSigma> InputSigmasDialog::calibrationSigma() const {
+/// A value that is left as it was shown keeps its origin.
+std::optional<sessions::StatedCalibration> InputSigmasDialog::calibrationSigma() const {
   if (by_covariance_) return former_calibration_;
   if (!ui_.cameraStated->isChecked()) return std::nullopt;
-  return sessions::CalibrationSigma{ui_.focal->value() / kPercent, ui_.principalPoint->value()};
+  const double focal = ui_.focal->value();
+  const double centre_px = ui_.principalPoint->value();
+  if (former_calibration_ && focal == shown_focal_ && centre_px == shown_centre_px_)
+    return former_calibration_;
+  return sessions::StatedCalibration{focal / kPercent, centre_px};
 }
 
 JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)

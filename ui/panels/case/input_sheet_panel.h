@@ -24,12 +24,14 @@ class InputSigmasDialog : public QDialog {
   InputSigmasDialog(const sessions::SessionCase& session_case, QWidget* parent);
 
   std::optional<double> meshScaleSigma() const;
-  std::optional<sessions::CalibrationSigma> calibrationSigma() const;
+  std::optional<sessions::StatedCalibration> calibrationSigma() const;
 
  private:
   Ui::InputSigmasDialog ui_;
   bool by_covariance_ = false;  ///< the camera's covariance is used
-  std::optional<sessions::CalibrationSigma> former_calibration_;
+  std::optional<sessions::StatedCalibration> former_calibration_;
+  double shown_focal_ = 0.0;  ///< percent, as rounded for display
+  double shown_centre_px_ = 0.0;
 };
 
 /// Asks for the point at which a pose is judged, and for its allowed errors.

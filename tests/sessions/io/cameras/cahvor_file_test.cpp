@@ -105,14 +105,14 @@ TEST_F(CahvorText, InternalCovariance_SetsTheCalibrationSigma) {
       " 0 0 0 0\n 0 0.25 0 0 0\n 0 0 0.0324 0 0\n 0 0 0 0.16 0\n 0 0 0 0 1e-9\n";
   const auto stated = sigma(kText + ("\nS internal =\n 0.0081" + rest));
   ASSERT_TRUE(stated);
-  EXPECT_DOUBLE_EQ(stated->focal_relative, 0.18 / 450.0) << "the worse of Hs and Vs";
-  EXPECT_DOUBLE_EQ(stated->principal_point_px, 0.5) << "the worse of Hc and Vc";
+  EXPECT_DOUBLE_EQ(stated->focal_relative.value(), 0.18 / 450.0) << "the worse of Hs and Vs";
+  EXPECT_DOUBLE_EQ(stated->principal_point_px.value(), 0.5) << "the worse of Hc and Vc";
   std::string mirrored = kText;
   const std::string v = "-129.600000      0.000000    577.200000";
   mirrored.replace(mirrored.find(v), v.size(), "590.4 0 37.2");
   const auto of_mirrored = sigma(mirrored + "\nS internal =\n 0.0081" + rest);
   ASSERT_TRUE(of_mirrored);
-  EXPECT_DOUBLE_EQ(of_mirrored->focal_relative, 0.18 / 450.0) << "fy is negative";
+  EXPECT_DOUBLE_EQ(of_mirrored->focal_relative.value(), 0.18 / 450.0) << "fy is negative";
   std::string zeros = "\nS internal =\n";
   for (int i = 0; i < 25; ++i) zeros += " 0";
   EXPECT_FALSE(sigma(kText + zeros + "\n")) << "it says nothing";

@@ -78,7 +78,7 @@ TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
   const test::TemporaryFolder folder;
   const FittedCamera fitted = fitCamera(given, CameraModel::kBrownConrady);
   const double infinite_m = std::numeric_limits<double>::infinity();
-  writeFittedCamera(folder / "fitted.json", fitted, given, "given.cahvor", infinite_m);
+  writeFittedCamera(folder / "fitted.json", fitted, {given}, "given.cahvor", infinite_m);
   const auto json = nlohmann::json::parse(folder.read("fitted.json"));
   double worst_px = 0.0;
   for (int y = 0; y < given.height; ++y)
@@ -94,8 +94,24 @@ TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
   EXPECT_EQ(json["fitted_from"]["model"], "cahvor");
   EXPECT_EQ(json["fitted_from"]["worst_error_px"], fitted.worst_error_px);
   EXPECT_EQ(readCamera(folder / "fitted.json"), fitted.camera);
-  writeFittedCamera(folder / "near.json", fitted, given, "given.cahvor", 0.5);
+  writeFittedCamera(folder / "near.json", fitted, {given}, "given.cahvor", 0.5);
   EXPECT_EQ(readCamera(folder / "near.json"), fitted.camera) << "with its distance";
+}
+
+TEST(CameraConversion, KeepsWhatIsStatedOfTheCalibration) {
+  const test::TemporaryFolder folder;
+  CameraFile given{cahvor(Eigen::Vector3d::UnitZ())};
+  const auto sigmaAfter = [&] {
+    const FittedCamera fitted = fitCamera(given.camera, CameraModel::kBrownConrady);
+    writeFittedCamera(folder / "fitted.json", fitted, given, "given.cahvor", 0.5);
+    return readCameraFile(folder / "fitted.json").calibration_sigma;
+  };
+  EXPECT_FALSE(sigmaAfter()) << "nothing is stated";
+  given.calibration_sigma = StatedCalibration{{}, 0.3};
+  EXPECT_EQ(sigmaAfter(), given.calibration_sigma);
+  given.covariance = CameraCovariance{1e-8 * Eigen::MatrixXd::Identity(18, 18)};
+  const CalibrationSigma derived = calibrationSigmaOf(given.camera, *given.covariance);
+  EXPECT_EQ(sigmaAfter(), (StatedCalibration{derived.focal_relative, derived.principal_point_px}));
 }
 
 TEST(CameraConversion, IsNoWorseThanAPinhole) {

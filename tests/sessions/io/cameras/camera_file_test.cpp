@@ -129,13 +129,19 @@ TEST_F(ReadCamera, TakesAStatedSigmaOfTheCalibrationAndWritesItBack) {
   };
   EXPECT_FALSE(readCameraFile(folder_.write("a.json", cameraText(pinhole))).calibration_sigma);
   const CameraFile read = with(R"({"focal_relative": 0.001, "principal_point_px": 0.7})");
-  EXPECT_EQ(read.calibration_sigma, (CalibrationSigma{0.001, 0.7}));
+  EXPECT_EQ(read.calibration_sigma, (StatedCalibration{0.001, 0.7}));
   writeCamera(folder_ / "c.json", read);
   EXPECT_EQ(readCameraFile(folder_ / "c.json").calibration_sigma, read.calibration_sigma);
-  for (const char* wrong :
-       {R"({"focal_relative": 0.001})", R"({"focal_relative": -1, "principal_point_px": 0})",
-        R"({"focal_relative": 0.5, "principal_point_px": 0})",
-        R"({"focal_relative": 0, "principal_point_px": 0, "focal_px": 1})"})
+  for (const char* one : {R"({"focal_relative": 0.001})", R"({"principal_point_px": 0.7})"}) {
+    const CameraFile partly = with(one);
+    EXPECT_NE(partly.calibration_sigma->focal_relative.has_value(),
+              partly.calibration_sigma->principal_point_px.has_value());
+    writeCamera(folder_ / "d.json", partly);
+    EXPECT_EQ(readCameraFile(folder_ / "d.json").calibration_sigma, partly.calibration_sigma);
+  }
+  for (const char* wrong : {R"({})", R"({"focal_relative": -1, "principal_point_px": 0})",
+                            R"({"focal_relative": 0.5, "principal_point_px": 0})",
+                            R"({"focal_relative": 0, "principal_point_px": 0, "focal_px": 1})"})
     EXPECT_THAT(folder_.message([&] { (void)with(wrong); }), HasSubstr("calibration_sigma"))
         << wrong;
 }

@@ -151,7 +151,7 @@ TEST_F(ReadDataset, AlbedosAndSigmasOfMeshCameraAndTruth_AreRead) {
   EXPECT_EQ(dataset.stations.at("os").parts[0].albedo, std::nullopt);
   EXPECT_EQ(dataset.stations.at("os").parts[1].albedo, 0.0);
   EXPECT_EQ(dataset.stations.at("bc").mesh_scale_sigma, 0.001);
-  EXPECT_EQ(dataset.cameras.at("left").calibration_sigma, (CalibrationSigma{0.002, 0.5}));
+  EXPECT_EQ(dataset.cameras.at("left").calibration_sigma, (StatedCalibration{0.002, 0.5}));
   EXPECT_EQ(dataset.findCase("b")->truth_covariance, Matrix6d(1e-6 * Matrix6d::Identity()));
 }
 
