@@ -117,7 +117,8 @@ class WindowTest : public ::testing::Test {
     return QTest::qWaitFor(holds, kPatienceMs);
   }
   bool resting() {
-    return !window_.tasks().isBusy() && window_.run().state() != ui::RunState::kWorking;
+    return !window_.tasks().isBusy() && !window_.store().isStoring() &&
+           window_.run().state() != ui::RunState::kWorking;
   }
   bool rests() {
     return wait([this] { return resting(); });

@@ -109,7 +109,7 @@ void DecisionForm::ask(Act act) {
                        : who.comment.empty() ? ui_.decisionComment
                                              : nullptr;
   if (!missing && decide(act, true)) return endQuestion();
-  question_ = {act, controller_.caseId()};
+  question_ = {act, controller_.openedId()};
   ui_.decisionComment->setPlaceholderText(act == Act::kReject ? tr("Why reject this result?")
                                                               : tr("Why validate this pose?"));
   (missing ? missing : ui_.decisionComment)->setFocus();
@@ -152,12 +152,13 @@ bool DecisionForm::decide(Act act, bool then_next) {
 
 /// A reason is given for one case, whose draft is kept.
 void DecisionForm::followCase() {
-  const std::string id = controller_.caseId();
+  // What is typed while the case is read is its own.
+  const std::string id = controller_.openedId();
   if (id != shown_id_) {
     drafts_[std::exchange(shown_id_, id)] = ui_.decisionComment->text();
     ui_.decisionComment->setText(drafts_[id]);
   }
-  if (question_ && question_->case_id != controller_.caseId()) question_.reset();
+  if (question_ && question_->case_id != id) endQuestion();
   showWhatIsPossible();
 }
 

@@ -36,6 +36,8 @@ class ReviewController : public QObject {
   void setFollowsRuns(bool follows);
   /// Id of the shown case, or empty.
   std::string caseId() const { return shownCaseId(document_, state_); }
+  /// The case that is open, also while it is read.
+  const std::string& openedId() const { return state_.opening().id; }
   /// Whether the session has cases other than the shown one.
   bool hasOtherCases() const;
   bool hasRun() const;

@@ -58,7 +58,7 @@ void Batch::run(const sessions::Session& session, const QString& id) {
     });
   };
   runner_.replace(running_, work, [this, id](const QString& message) {
-    caseDone(tr("could not be run"));
+    if (progress_ && progress_->case_id == id) caseDone(tr("could not be run"));
     Q_EMIT caseFailed(id, message);
   });
 }

@@ -185,7 +185,9 @@ class CaseByCase {
           return made;
         },
         [this](std::vector<Order> made) { take(std::move(made)); },
-        [this, orders](const QString&) { take(orders); });  // as they were: not tried again
+        [this, orders, task = ++tasks_](const QString&) {
+          if (making_ && task == tasks_) take(orders);  // as they were: not tried again
+        });
   }
 
   /// A value of a case that has changed meanwhile still waits.
@@ -213,6 +215,7 @@ class CaseByCase {
   std::set<std::pair<WaitingRank, std::size_t>> waiting_;
   bool active_ = false;
   bool making_ = false;
+  std::uint64_t tasks_ = 0;
   TaskRunner runner_;  ///< declared last: it ends before the members that its work uses
 };
 

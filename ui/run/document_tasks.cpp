@@ -9,19 +9,22 @@ namespace boresight::ui {
 DocumentTasks::DocumentTasks(const Document& document, TaskRunner& tasks)
     : document_(document), tasks_(tasks), opened_(std::make_shared<const QString>()) {
   connect(&document, &Document::opened, this, [this] {
-    opened_ = std::make_shared<const QString>(fromText(document_.file().filename().string()));
+    opened_ = std::make_shared<const QString>(fromText(document_.file().string()));
   });
 }
 
 /// Whether a result can be used: its session is open, and has its case.
-bool DocumentTasks::holds(const Opened& begun, const std::string& id, const QString& name) {
+bool DocumentTasks::holds(const Opened& begun, const std::string& id, const ResultName& name) {
   if (begun != opened_)
-    Q_EMIT failed(begun->isEmpty() ? tr("%1 was not used: another session was opened.").arg(name)
-                                   : tr("%1 was not used: it belongs to %2, which is not open any "
-                                        "more.")
-                                         .arg(name, *begun));
+    Q_EMIT failed(begun->isEmpty()
+                      ? tr("%1 was not used: another session was opened. To use it there, %2.")
+                            .arg(name.what, name.again)
+                      : tr("%1 was not used: it belongs to %2, which is not open any more. Open "
+                           "that session and %3.")
+                            .arg(name.what, *begun, name.again));
   else if (!id.empty() && !document_.session().findCase(id))
-    Q_EMIT failed(tr("%1 was not used: %2 was removed from the session.").arg(name, fromText(id)));
+    Q_EMIT failed(tr("%1 was not used: %2 was removed from the session. Undo that and %3.")
+                      .arg(name.what, fromText(id), name.again));
   else
     return true;
   return false;

@@ -14,9 +14,17 @@ namespace boresight::ui {
 
 class Document;
 
+/// What the operator loses with a result that cannot be used: "The new camera of bc-000004", and
+/// the way to have it again, in the session that it belongs to: "choose cam.json for bc-000004
+/// again".
+struct ResultName {
+  QString what;
+  QString again;
+};
+
 /// Tasks whose results belong to the session, or to a case of it, that is open when they begin: a
-/// result, or a failure, of a session that is left is dropped and reported. Arguments are those of
-/// TaskRunner; `name` is the subject of the report: "The new camera of bc-000004".
+/// result, or a failure, of a session that is left is dropped, and the report says how to have it
+/// again. Arguments are those of TaskRunner.
 class DocumentTasks : public QObject {
   Q_OBJECT
 
@@ -24,13 +32,13 @@ class DocumentTasks : public QObject {
   DocumentTasks(const Document& document, TaskRunner& tasks);
 
   template <class Make, class Done, FailureReceiver Failed>
-  void ofDocument(const QString& name, Make make, Done done, Failed failed) {
+  void ofDocument(const ResultName& name, Make make, Done done, Failed failed) {
     tasks_.queue(std::move(make), ifHeld({}, name, std::move(done)),
                  ifHeld({}, name, std::move(failed)));
   }
   /// The result is also dropped where the case has been removed.
   template <class Make, class Done, FailureReceiver Failed>
-  void ofCase(const TaskKind& kind, const std::string& id, const QString& name, Make make,
+  void ofCase(const TaskKind& kind, const std::string& id, const ResultName& name, Make make,
               Done done, Failed failed) {
     tasks_.replace(kind, std::move(make), ifHeld(id, name, std::move(done)),
                    ifHeld({}, name, std::move(failed)));
@@ -45,16 +53,16 @@ class DocumentTasks : public QObject {
 
   /// Calls `take` while the session that is open now is open, and has the case (if not empty).
   template <class Take>
-  auto ifHeld(const std::string& id, const QString& name, Take take) {
+  auto ifHeld(const std::string& id, const ResultName& name, Take take) {
     return [this, id, name, begun = opened_, take = std::move(take)](auto&& value) {
       if (holds(begun, id, name)) take(std::forward<decltype(value)>(value));
     };
   }
-  bool holds(const Opened& begun, const std::string& id, const QString& name);
+  bool holds(const Opened& begun, const std::string& id, const ResultName& name);
 
   const Document& document_;
   TaskRunner& tasks_;
-  Opened opened_;  ///< name of the open session; another object for each opening
+  Opened opened_;  ///< file of the open session; another object for each opening
 };
 
 }  // namespace boresight::ui

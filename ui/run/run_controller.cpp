@@ -105,7 +105,12 @@ void RunController::takeResult(std::vector<SnapshotPtr> records, bool halted) {
   if (ended) Q_EMIT finished();
 }
 
+/// A run that has ended or halted before its receiver failed is not begun again.
 void RunController::takeFailure(const QString& message) {
+  if (state_ != RunState::kWorking) {
+    Q_EMIT failed(message);
+    return;
+  }
   job_ = std::make_shared<Job>(Job{inputs_, nullptr, nullptr});
   setState(RunState::kReady);
   Q_EMIT failed(message);

@@ -27,6 +27,8 @@ class TaskRunner::Thread {
     Work work;
     Failure failed;
     std::stop_source stop;
+    /// Whether a report has thrown, which ends the task; of the owner's thread.
+    std::shared_ptr<bool> broken;
   };
 
   explicit Thread(TaskRunner& owner) : owner_(owner), thread_([this] { loop(); }) {}
@@ -70,6 +72,11 @@ class TaskRunner::Thread {
     return report;
   }
 
+  /// Of a receiver that throws, too, nothing can be told.
+  static void tell(const Failure& failed, const QString& problem) {
+    (void)problemOf([&] { failed(problem); });
+  }
+
  private:
   /// Skips waiting tasks and asks the running one to stop; the owner drops its results.
   void drop(std::uint64_t kind) {
@@ -94,21 +101,25 @@ class TaskRunner::Thread {
   void loop() {
     for (Item item; waitForItem(item); item = {}) {
       const QString error = work(item);
-      post([owner = &owner_, kind = item.kind, number = item.number, error, failed = item.failed] {
-        owner->end(kind, number, error, failed);
-      });
+      post([owner = &owner_, kind = item.kind, number = item.number, broken = item.broken,
+            failed = item.failed,
+            error] { owner->end(kind, number, *broken ? QString() : error, failed); });
     }
   }
 
   /// Why it failed, or nothing.
   QString work(const Item& item) {
     if (!item.work) return {};
-    const Report report = [this, kind = item.kind, number = item.number,
-                           failed = item.failed](auto function) {
-      post([owner = &owner_, kind, number, failed, function = std::move(function)] {
-        if (!owner->isUsed(kind, number)) return;
+    const Report report = [this, kind = item.kind, number = item.number, broken = item.broken,
+                           failed = item.failed, stop = item.stop](auto function) {
+      post([owner = &owner_, kind, number, broken, failed, stop,
+            function = std::move(function)]() mutable {
+        if (*broken || !owner->isUsed(kind, number)) return;
         const QString problem = problemOf(function);
-        if (!problem.isEmpty()) failed(problem);
+        if (problem.isEmpty()) return;
+        *broken = true;  // its end is told once
+        stop.request_stop();
+        tell(failed, problem);
       });
     };
     return problemOf([&] { item.work(item.stop.get_token(), report); });
@@ -157,7 +168,8 @@ void TaskRunner::add(std::uint64_t kind, Work work, Failure failed) {
   ++count_;
   if (kind != 0) newest_[kind] = count_;
   ++pending_;
-  thread_->add({kind, count_, std::move(work), std::move(failed), std::stop_source()});
+  thread_->add({kind, count_, std::move(work), std::move(failed), std::stop_source(),
+                std::make_shared<bool>(false)});
   if (pending_ == 1) Q_EMIT busyChanged();
 }
 
@@ -179,7 +191,7 @@ bool TaskRunner::isUsed(std::uint64_t kind, std::uint64_t number) const {
 void TaskRunner::end(std::uint64_t kind, std::uint64_t number, const QString& error,
                      const Failure& failed) {
   --pending_;
-  if (!error.isEmpty() && isUsed(kind, number)) failed(error);
+  if (!error.isEmpty() && isUsed(kind, number)) Thread::tell(failed, error);
   if (pending_ == 0) Q_EMIT busyChanged();
 }
 

@@ -51,7 +51,8 @@ class TaskRunner : public QObject {
   ~TaskRunner() override;
 
   /// Runs a task that reports progress. Its captures must be shared or copied. `failed(message)` is
-  /// called on this object's thread when it, or a function that it reports, throws.
+  /// called once, on this object's thread, when it, or a function that it reports, throws; after
+  /// such a function the task is stopped, and nothing more of it is delivered.
   template <FailureReceiver Failed>
   void queue(Work work, Failed failed) {
     add(0, std::move(work), std::move(failed));

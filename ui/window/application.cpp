@@ -219,11 +219,12 @@ bool isResting(MainWindow& window) {
   auto* review = window.findChild<ReviewPanel*>();
   const auto* trends = window.findChild<TrendsPanel*>();
   const auto* runs = window.findChild<RunsPanel*>();
-  return !window.tasks().isBusy() && !(queue && queue->controller().isBusy()) &&
-         !(review && review->controller().isBusy()) && !window.annotation().stale() &&
-         !window.findings().isBusy() && !(trends && trends->isBusy()) &&
-         !(runs && runs->isBusy()) && window.image().view().isDrawn() &&
-         window.run().state() != RunState::kWorking && !(match && match->isComputing());
+  return !window.tasks().isBusy() && !window.store().isStoring() &&
+         !(queue && queue->controller().isBusy()) && !(review && review->controller().isBusy()) &&
+         !window.annotation().stale() && !window.findings().isBusy() &&
+         !(trends && trends->isBusy()) && !(runs && runs->isBusy()) &&
+         window.image().view().isDrawn() && window.run().state() != RunState::kWorking &&
+         !(match && match->isComputing());
 }
 
 QWidget* widgetOf(MainWindow& window, const QString& view) {

@@ -5,13 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include <QCoreApplication>
-
 #include "sessions/session/views_run.h"
 #include "ui/models/text.h"
 #include "ui/run/document_tasks.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
+#include "ui/window/run_store.h"
 
 namespace boresight::ui {
 
@@ -24,8 +23,6 @@ bool sameButNudge(sessions::SessionCase a, const sessions::SessionCase& b) {
   a.camera_from_station_working = b.camera_from_station_working;
   return a == b;
 }
-
-constexpr int kPatience_ms = 100;  ///< between looks whether a store has failed
 
 void requirePlan(const sessions::RunPlan& plan) {
   const std::string problem = sessions::planProblem(plan);
@@ -44,11 +41,11 @@ RunCursor atEndOf(const sessions::LocalizationTrace& run) {
 }  // namespace
 
 CaseController::CaseController(Document& document, ViewState& state, RunController& run,
-                               TaskRunner& tasks, DocumentTasks& of_document, QObject* parent)
-    : QObject(parent),
-      document_(document),
+                               RunStore& store, TaskRunner& tasks, DocumentTasks& of_document)
+    : document_(document),
       state_(state),
       run_(run),
+      store_(store),
       tasks_(tasks),
       of_document_(of_document) {
   connect(&document_, &Document::opened, this, &CaseController::documentOpened);
@@ -67,18 +64,21 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   connect(&batch_, &Batch::changed, this, &CaseController::batchChanged);
   connect(&batch_, &Batch::caseEnded, this,
           [this](const QString& id, const ViewState::SnapshotPtr& trace) {
-            keep({.session = batch_session_,
-                  .case_id = id.toStdString(),
-                  .snapshot = trace,
-                  .continued = {},
-                  .views = {},
-                  .batch = batches_,
-                  .of_batch = true});
+            store_.keep({.session = batch_session_,
+                         .case_id = id.toStdString(),
+                         .snapshot = trace,
+                         .batch = batches_});
           });
   connect(&batch_, &Batch::caseFailed, this, [this](const QString&, const QString& message) {
     batch_failures_ << message;
     runNext();
   });
+  connect(&store_, &RunStore::stored, this, [this](const std::string& case_id, bool of_batch) {
+    Q_EMIT stalenessChanged();
+    if (of_batch) showRunOf(case_id);
+  });
+  connect(&store_, &RunStore::blocked, this, &CaseController::endBatch);
+  connect(&store_, &RunStore::settled, this, &CaseController::goOnAfter);
 }
 
 QString CaseController::caseId() const { return fromText(openId()); }
@@ -86,7 +86,6 @@ QString CaseController::caseId() const { return fromText(openId()); }
 void CaseController::documentOpened() {
   batch_.stop();
   batch_.dropSummary();
-  unstored_.clear();
   leaveCase();
   asked_.reset();
   state_.setCase(nullptr);  // not of another document, nor of this one before its recovery
@@ -117,7 +116,6 @@ void CaseController::openFirst() {
 }
 
 void CaseController::documentChanged() {
-  storeAgain();
   if (const sessions::SessionCase* session_case = sessionCase())
     showChange(*session_case);
   else
@@ -261,7 +259,8 @@ QString CaseController::staleness() const {
   const std::string id = openId();
   const sessions::RunRecord* record =
       shown->digest.empty() ? nullptr : sessions::findRun(document_.session(), id, shown->digest);
-  if (!record && isStoring()) return {};  // the run before says nothing of one that has just ended
+  if (!record && store_.isStoring())
+    return {};  // the run before says nothing of one that has just ended
   if (!record) record = document_.session().lastRunOf(id);
   if (!record) return {};
   const sessions::Staleness stale =
@@ -306,6 +305,7 @@ void CaseController::start(const std::function<void()>& prepare, StepUntil until
     return;
   }
   batch_.dropSummary();
+  tasks_.cancel(showing_run_);  // the run before would be shown over this one
   run_.advance(until);
 }
 
@@ -397,128 +397,11 @@ void CaseController::runAgain() {
 void CaseController::storeRun() {
   run_is_prepared_ = false;
   if (const auto snapshot = run_.snapshot())
-    keep({.session = run_session_,
-          .case_id = run_.inputs().one->source.id,
-          .snapshot = snapshot,
-          .continued = run_.inputs().continued,
-          .views = run_.views()});
-}
-
-/// Written into the session's folder: one, or one of every view.
-std::vector<sessions::RunRecord> CaseController::recordsOf(const EndedRun& ended,
-                                                           const std::filesystem::path& file) {
-  if (ended.views.empty())
-    return {
-        sessions::storeRun(ended.session, ended.case_id, *ended.snapshot, file, ended.continued)};
-  std::vector<sessions::LocalizationTrace> views;
-  for (const ViewState::SnapshotPtr& snapshot_ptr : ended.views) views.push_back(*snapshot_ptr);
-  return sessions::storeViews(ended.session, views, file);
-}
-
-/// From its end on it is known as a run that is not stored.
-void CaseController::keep(EndedRun ended) {
-  unstored_.push_back(std::make_shared<EndedRun>(std::move(ended)));
-  store(unstored_.back());
-}
-
-void CaseController::store(const EndedPtr& ended) {
-  ended->storing = true;
-  ended->problem.clear();
-  ended->file = document_.file();
-  of_document_.ofDocument(
-      tr("The run of %1").arg(fromText(ended->case_id)),
-      [run = *ended, file = document_.file()](const std::stop_token&) {
-        return recordsOf(run, file);
-      },
-      [this, ended](const std::vector<sessions::RunRecord>& records) { stored(ended, records); },
-      [this, ended](const QString& problem) { notStored(ended, problem); });
-}
-
-void CaseController::stored(const EndedPtr& ended,
-                            const std::vector<sessions::RunRecord>& records) {
-  if (isElsewhereNow(ended)) return;
-  // Before it is recorded: a failure is reported at once, and the answer is to save elsewhere.
-  ended->storing = false;
-  ended->problem = tr("The session could not be written.");
-  unstored_file_ = document_.file();
-  if (noteRuns(records)) {
-    std::erase(unstored_, ended);
-    Q_EMIT stalenessChanged();
-    if (ended->of_batch) showRunOf(ended->case_id);
-  }
-  goOnAfter(ended);
-}
-
-void CaseController::notStored(const EndedPtr& ended, const QString& problem) {
-  if (isElsewhereNow(ended)) return;
-  ended->storing = false;
-  ended->problem = problem;
-  unstored_file_ = document_.file();
-  Q_EMIT storeFailed(problem);
-  if (!unstoredRuns().isEmpty()) endBatch();  // nor can the next be stored
-  goOnAfter(ended);
-}
-
-/// Whether the run has another place by now: none, where its case was removed; the folder of the
-/// session's new name, in which it is stored again.
-bool CaseController::isElsewhereNow(const EndedPtr& ended) {
-  if (!document_.session().findCase(ended->case_id)) {
-    ended->storing = false;
-    std::erase(unstored_, ended);
-    Q_EMIT failed(tr("The run of %1 is not kept: the case was removed meanwhile.")
-                      .arg(fromText(ended->case_id)));
-    goOnAfter(ended);
-    return true;
-  }
-  if (ended->file == document_.file()) return false;
-  store(ended);
-  return true;
-}
-
-/// The session was saved: perhaps there is room now.
-void CaseController::storeAgain() {
-  if (document_.file() == unstored_file_ && document_.isModified()) return;
-  for (const EndedPtr& ended : std::vector(unstored_))
-    if (!ended->storing) store(ended);
-}
-
-/// A batch waits for one run at a time, once.
-void CaseController::goOnAfter(const EndedPtr& ended) {
-  const int batch = std::exchange(ended->batch, 0);
-  if (batch != 0 && batch == batches_) runNext();
-}
-
-bool CaseController::isStoring() const {
-  return std::ranges::any_of(unstored_, [](const EndedPtr& ended) { return ended->storing; });
-}
-
-bool CaseController::noteRuns(const std::vector<sessions::RunRecord>& records) {
-  const auto with_runs = [&records](const sessions::Session& session) {
-    sessions::Session after = session;
-    for (const sessions::RunRecord& run : records) after = sessions::withRun(after, run);
-    return after;
-  };
-  return document_.note(with_runs, tr("Run %1").arg(fromText(records.front().case_id)));
-}
-
-QStringList CaseController::unstoredRuns() const {
-  QStringList ids;
-  for (const EndedPtr& ended : unstored_)
-    if (!ended->storing) ids << fromText(ended->case_id);
-  return ids;
-}
-
-QString CaseController::unstoredReason() const {
-  QString reason;
-  for (const EndedPtr& ended : unstored_)
-    if (!ended->storing) reason = ended->problem;
-  return reason;
-}
-
-void CaseController::finishStoring() {
-  while (isStoring() && tasks_.isBusy())
-    QCoreApplication::processEvents(
-        QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents, kPatience_ms);
+    store_.keep({.session = run_session_,
+                 .case_id = run_.inputs().one->source.id,
+                 .snapshot = snapshot,
+                 .continued = run_.inputs().continued,
+                 .views = run_.views()});
 }
 
 void CaseController::runAll(const QStringList& ids) {
@@ -555,6 +438,11 @@ void CaseController::reportBatch() {
     Q_EMIT failed(std::exchange(batch_failures_, {}).join(QLatin1Char('\n')));
 }
 
+/// A run of a batch is stored, or cannot be stored.
+void CaseController::goOnAfter(int batch) {
+  if (batch == batches_) runNext();
+}
+
 /// Goes on with the batch, if there is one.
 void CaseController::runNext() {
   if (!batch_.isActive()) return;
@@ -580,7 +468,8 @@ void CaseController::changeInput(const QString& id, sessions::InputKind kind,
   if (!session_case) return;
   const QString name = fromText(file.filename().string());
   of_document_.ofCase(
-      changing_[{session_case->id, kind}], session_case->id, tr("%1 for %2").arg(name, id),
+      changing_[{session_case->id, kind}], session_case->id,
+      {tr("%1 for %2").arg(name, id), tr("choose %1 for %2 again").arg(name, id)},
       [before = *session_case, kind, file, mesh_unit](const std::stop_token&) {
         return sessions::withInputFile(before, kind, file, mesh_unit);
       },

@@ -25,15 +25,16 @@ namespace boresight::ui {
 
 class Document;
 class DocumentTasks;
+class RunStore;
 
 /// Connects document, worker and view state: a chosen case is read and shown with its latest run; a
-/// run is shown while it proceeds and stored when it ends.
+/// run is shown while it proceeds, and is given to the store when it ends.
 class CaseController : public QObject {
   Q_OBJECT
 
  public:
-  CaseController(Document& document, ViewState& state, RunController& run, TaskRunner& tasks,
-                 DocumentTasks& of_document, QObject* parent = nullptr);
+  CaseController(Document& document, ViewState& state, RunController& run, RunStore& store,
+                 TaskRunner& tasks, DocumentTasks& of_document);
 
   /// Id of the open case, shown or being read; or empty.
   QString caseId() const;
@@ -87,13 +88,6 @@ class CaseController : public QObject {
   /// Runs the case to its end together with the other views of its rig, as one pose; each gets its
   /// own run.
   void runTogether();
-  /// Cases of ended runs that could not be stored in the session; storing them is tried again
-  /// whenever the session is saved, there or elsewhere.
-  QStringList unstoredRuns() const;
-  /// Why the last of them could not be stored, one sentence; or empty.
-  QString unstoredReason() const;
-  /// Waits until each run that has ended is stored in the session, or cannot be stored.
-  void finishStoring();
   /// Replaces a case's input by another file, once that is read; no other input of it changes.
   void changeInput(const QString& id, boresight::sessions::InputKind kind,
                    const std::filesystem::path& file, const std::string& mesh_unit);
@@ -114,30 +108,12 @@ class CaseController : public QObject {
   void failed(const QString& message);
   /// A remark for the operator; one sentence.
   void noted(const QString& message);
-  /// A run cannot be stored in the session; one sentence.
-  void storeFailed(const QString& message);
   void stalenessChanged();
   /// A batch has begun, continued with its next case, or ended.
   void batchChanged();
 
  private:
-  /// All that is needed to store a run that has ended.
-  struct EndedRun {
-    sessions::Session session;  ///< from which it was run
-    std::string case_id;
-    ViewState::SnapshotPtr snapshot;
-    std::string continued;                      ///< digest of the run that it continues, or empty
-    std::vector<ViewState::SnapshotPtr> views;  ///< of several that were solved as one
-    int batch = 0;  ///< the batch that waits for it to be stored; 0: none
-    bool of_batch = false;
-    bool storing = true;
-    std::filesystem::path file = {};  ///< the session's, in whose folder it is written
-    QString problem = {};             ///< why it could not be stored
-  };
-  using EndedPtr = std::shared_ptr<EndedRun>;
-
   void documentOpened();
-  bool isElsewhereNow(const EndedPtr& ended);
   void reportBatch();
   void documentChanged();
   void leaveCase();
@@ -162,18 +138,9 @@ class CaseController : public QObject {
   void requireLoaded() const;
   void prepareRerun(int iteration);
   void storeRun();
-  static std::vector<sessions::RunRecord> recordsOf(const EndedRun& ended,
-                                                    const std::filesystem::path& file);
-  void keep(EndedRun ended);
-  void store(const EndedPtr& ended);
-  void stored(const EndedPtr& ended, const std::vector<sessions::RunRecord>& records);
-  void notStored(const EndedPtr& ended, const QString& problem);
-  void storeAgain();
-  bool isStoring() const;
-  bool noteRuns(const std::vector<sessions::RunRecord>& records);
   void runNext();
   void endBatch();
-  void goOnAfter(const EndedPtr& ended);
+  void goOnAfter(int batch);
   void showRunOf(const std::string& case_id);
   void runIfWaiting();
   void showNudgedPose();
@@ -181,6 +148,7 @@ class CaseController : public QObject {
   Document& document_;
   ViewState& state_;
   RunController& run_;
+  RunStore& store_;
   TaskRunner& tasks_;
   DocumentTasks& of_document_;
   TaskKind reading_;
@@ -196,10 +164,8 @@ class CaseController : public QObject {
   bool reads_ = false;                          ///< `asked_` is being read
   bool reads_run_ = false;                      ///< the last run of the open case is being read
   bool run_is_prepared_ = false;
-  bool is_new_run_ = false;              ///< from the seed, and nothing of it is shown yet
-  std::vector<EndedPtr> unstored_;       ///< being stored, or with a problem
-  std::filesystem::path unstored_file_;  ///< where one could not be stored
-  sessions::Session run_session_;        ///< of the prepared run
+  bool is_new_run_ = false;        ///< from the seed, and nothing of it is shown yet
+  sessions::Session run_session_;  ///< of the prepared run
   std::optional<sessions::StepUntil> run_when_loaded_;  ///< of the open case
   Batch batch_;
   int batches_ = 0;                  ///< number of the newest batch

@@ -123,10 +123,11 @@ void MainWindow::connectAll() {
   connect(&parts_.annotation, &AnnotationController::told, this, note);
   connect(&parts_.cases, &CaseController::noted, this, note);
   show_failures_of(*annotation_files, parts_.onboard, parts_.quality, docks_->snapper, *links,
-                   *findings_, *files_, parts_.document, parts_.cases, parts_.of_document,
-                   parts_.exports, *verdicts, *levels, image(), docks_->image_annotation,
-                   docks_->scene, docks_->mask, docks_->poses, docks_->annotation,
-                   docks_->review.controller(), *findChild<RunsPanel*>(), menus_->poses());
+                   *findings_, *files_, parts_.document, parts_.cases, parts_.store,
+                   parts_.of_document, parts_.exports, *verdicts, *levels, image(),
+                   docks_->image_annotation, docks_->scene, docks_->mask, docks_->poses,
+                   docks_->annotation, docks_->review.controller(), *findChild<RunsPanel*>(),
+                   menus_->poses());
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
   connect(files_, &SessionFiles::queueWanted, this,
           [this] { workspaces_->reveal(QStringLiteral("queue")); });
@@ -141,11 +142,10 @@ void MainWindow::connectAll() {
     if (!quiet_) files_->offerSavingElsewhere(message);
   };
   connect(&parts_.document, &Document::writeFailed, this, offer_elsewhere);
-  connect(&parts_.cases, &CaseController::storeFailed, this,
-          [this, offer_elsewhere](const QString& m) {
-            showState();  // it can be saved now
-            offer_elsewhere(m);
-          });
+  connect(&parts_.store, &RunStore::storeFailed, this, [this, offer_elsewhere](const QString& m) {
+    showState();  // it can be saved now
+    offer_elsewhere(m);
+  });
   connect(&parts_.cases, &CaseController::batchChanged, this, &MainWindow::showState);
   connect(&parts_.run, &RunController::stateChanged, this, &MainWindow::showState);
   connect(&parts_.run, &RunController::stateChanged, this, [this] {
@@ -200,21 +200,44 @@ bool MainWindow::openSession(const std::filesystem::path& file) { return files_-
 
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
-/// Asks where closing would end work whose result is lost.
-bool MainWindow::mayEndJobs() {
+/// What closing would end, a sentence each.
+QStringList MainWindow::jobsUnderWay() const {
   QStringList jobs;
+  const QString id = parts_.cases.caseId();
+  if (const auto& batch = parts_.cases.batch())
+    jobs << tr("Cases are run, %1 of %2 so far: these runs are kept, the others can be run later.")
+                .arg(batch->done)
+                .arg(batch->of);
+  if (parts_.run.state() == RunState::kWorking || parts_.cases.runsSoon())
+    jobs << tr("%1 is run: without its end this run is not kept.").arg(id);
+  if (parts_.sequence.isRunning())
+    jobs << tr("A sequence is run: its frames so far are kept, its next start continues it.");
+  if (docks_->review.controller().isConvergenceTestRunning())
+    jobs << tr("A convergence test of %1 is run: it is not kept.").arg(id);
   if (parts_.exports.isBusy())
-    jobs << tr("%n export(s): %1", "", parts_.exports.count()).arg(parts_.exports.job().name);
-  if (parts_.sequence.isRunning()) jobs << tr("a sequence; its next start continues it");
-  if (docks_->review.controller().isConvergenceTestRunning()) jobs << tr("a convergence test");
+    jobs << tr("%n file(s) are written, now: %1. They are not complete.", "",
+               parts_.exports.count())
+                .arg(parts_.exports.job().name);
+  return jobs;
+}
+
+/// Asks where work is under way; ends it where that is the answer.
+bool MainWindow::mayEndJobs() {
+  const QStringList jobs = jobsUnderWay();
   if (jobs.isEmpty()) return true;
-  QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("Close now, and end what is under way?"), QMessageBox::Cancel, this);
+  QMessageBox box(QMessageBox::Question, tr("Boresight"), tr("Stop what is under way, and close?"),
+                  QMessageBox::NoButton, this);
   box.setInformativeText(jobs.join(QLatin1Char('\n')));
   QAbstractButton* end =
-      named(box.addButton(tr("End and close"), QMessageBox::DestructiveRole), "endJobs");
+      named(box.addButton(tr("Stop and close"), QMessageBox::DestructiveRole), "endJobs");
+  QPushButton* stay = named(box.addButton(tr("Stay"), QMessageBox::RejectRole), "stay");
+  box.setDefaultButton(stay);
   box.exec();
-  return box.clickedButton() == end;
+  if (box.clickedButton() != end) return false;
+  parts_.sequence.stop();
+  docks_->review.controller().stopConvergenceTest();
+  parts_.cases.stop();
+  return true;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

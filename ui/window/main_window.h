@@ -49,6 +49,7 @@ class MainWindow : public QMainWindow {
   RunController& run() { return parts_.run; }
   TaskRunner& tasks() { return parts_.tasks; }
   CaseController& cases() { return parts_.cases; }
+  RunStore& store() { return parts_.store; }
   AnnotationController& annotation() { return parts_.annotation; }
   OnboardController& onboard() { return parts_.onboard; }
   ImagePanel& image();
@@ -75,6 +76,7 @@ class MainWindow : public QMainWindow {
   void showState();
   void showHint();
   void showMessage(const QString& message);
+  QStringList jobsUnderWay() const;
   bool mayEndJobs();
 
   WindowParts parts_;

@@ -6,6 +6,7 @@
 
 #include "sessions/session/input_check.h"
 #include "sessions/session/session.h"
+#include "sessions/session/session_difference.h"
 #include "ui/models/text.h"
 #include "ui/panels/annotate/levels_panel.h"
 #include "ui/panels/annotate/mask_panel.h"
@@ -19,6 +20,27 @@
 namespace boresight::ui {
 
 using sessions::Conversion;
+
+bool CasesOfCamera::isOfOtherCases(const sessions::Session& session) const {
+  const sessions::SessionDifference difference = sessions::differenceOf(session_, session);
+  return difference.list || std::ranges::any_of(difference.cases, [&](const std::string& id) {
+           const sessions::SessionCase* before = session_.findCase(id);
+           const sessions::SessionCase* after = session.findCase(id);
+           return !before || !after || !(before->camera == after->camera) ||
+                  before->image.width != after->image.width ||
+                  before->image.height != after->image.height ||
+                  !(before->ignore_strokes == after->ignore_strokes);
+         });
+}
+
+void CasesOfCamera::follow(const sessions::Session& session, const std::string& case_id) {
+  const bool others = case_id != case_id_ || isOfOtherCases(session);
+  session_ = session;
+  if (!others) return;
+  case_id_ = case_id;
+  count_ = static_cast<int>(sessions::casesOfSameCamera(session, case_id).size());
+  named_ = sessions::namedStrokesOfCamera(session, case_id);
+}
 
 LevelsController::LevelsController(WindowParts& parts, LevelsPanel& panel, QObject* parent)
     : QObject(parent), parts_(parts), panel_(panel) {
@@ -43,7 +65,7 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
       wanted.push_back({each, found->image});
   Q_EMIT noted(tr("Converting %n image(s)...", "", static_cast<int>(wanted.size())));
   parts_.of_document.ofDocument(
-      tr("The conversion of %1").arg(fromText(id)),
+      {tr("The conversion of %1").arg(fromText(id)), tr("convert it again")},
       [wanted, eight_bit](const std::stop_token& stop) {
         std::vector<Conversion> conversions;
         for (const Conversion& conversion : wanted)
@@ -69,9 +91,8 @@ void LevelsController::showDocument() {
   const sessions::SessionCase* session_case =
       document.isEditable() ? shownCase(document, parts_.state) : nullptr;
   if (!session_case) return panel_.setCase(nullptr, nullptr, 0);
-  panel_.setCase(
-      session_case, &parts_.state.currentCase()->image,
-      static_cast<int>(sessions::casesOfSameCamera(document.session(), session_case->id).size()));
+  of_camera_.follow(document.session(), session_case->id);
+  panel_.setCase(session_case, &parts_.state.currentCase()->image, of_camera_.count());
 }
 
 using sessions::MaskStroke;
@@ -126,8 +147,8 @@ void MaskController::showDocument() {
     editor_.setPending({});
     return;
   }
-  panel_.setCase(edited, namedStrokesOfCamera(session, id),
-                 static_cast<int>(casesOfSameCamera(session, id).size()));
+  of_camera_.follow(session, id);
+  panel_.setCase(edited, of_camera_.named(), of_camera_.count());
   showPending(*edited);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <QObject>
 
 #include "sessions/io/images/image_file.h"
@@ -9,6 +11,25 @@
 #include "ui/window/window_parts.h"
 
 namespace boresight::ui {
+
+/// The other cases with the camera of a case. Searched again only after a change of the list, of a
+/// camera or of a mask: a session has tens of thousands of cases.
+class CasesOfCamera {
+ public:
+  void follow(const sessions::Session& session, const std::string& case_id);
+
+  int count() const { return count_; }
+  /// Their named strokes that the case lacks.
+  const sessions::MaskStrokes& named() const { return named_; }
+
+ private:
+  bool isOfOtherCases(const sessions::Session& session) const;
+
+  sessions::Session session_;
+  std::string case_id_;
+  int count_ = 0;
+  sessions::MaskStrokes named_;
+};
 
 class LevelsPanel;
 
@@ -31,6 +52,7 @@ class LevelsController : public QObject {
 
   WindowParts& parts_;
   LevelsPanel& panel_;
+  CasesOfCamera of_camera_;
 };
 
 class ImagePanel;
@@ -60,6 +82,7 @@ class MaskController : public QObject {
   MaskEditor& editor_;
   MaskPanel& panel_;
   ImagePanel& image_;
+  CasesOfCamera of_camera_;
 };
 
 }  // namespace boresight::ui

@@ -67,7 +67,10 @@ QString meshUnitText(const char* unit, const std::optional<double>& extent) {
 }
 
 SessionFiles::SessionFiles(QWidget& window, WindowParts& parts)
-    : QObject(&window), window_(window), parts_(parts) {}
+    : QObject(&window), window_(window), parts_(parts) {
+  // Tasks of the session that is left end without a result.
+  connect(&parts_.document, &Document::opened, this, [this] { requested_.clear(); });
+}
 
 bool SessionFiles::open(const std::filesystem::path& file, Former former) {
   if (!parts_.document.open(file, former)) return false;
@@ -107,9 +110,8 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
     return;
   }
   if (dropped.results) return makeFrom(*dropped.results, true);
-  collected_ = dropped;
   kept_ = fromText(kept);
-  judgeCollected();
+  collect(dropped);
   // Of the case that is open, unless it comes with the files of another.
   if (dropped.isRecordAlone() && parts_.state.currentCase()) {
     const std::filesystem::path record = *collected_.record;
@@ -129,6 +131,12 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
                      .arg(fromText(dropped.missing())));
   measureMesh();
   if (dropped.isCase()) makeCollected();
+}
+
+void SessionFiles::collect(const DroppedFiles& files) {
+  collected_ = files;
+  ++collection_;
+  judgeCollected();
 }
 
 /// Each is read at once, so that a wrong one is known before the others are there.
@@ -180,18 +188,19 @@ void SessionFiles::askForNext() {
 }
 
 void SessionFiles::removeFile(InputKind kind) {
+  DroppedFiles files = collected_;
   if (kind == InputKind::kImage) {
-    collected_.one.image.clear();
-    collected_.label_camera_remark.reset();
+    files.one.image.clear();
+    files.label_camera_remark.reset();
   } else if (kind == InputKind::kCamera) {
-    collected_.one.camera.clear();
+    files.one.camera.clear();
   } else if (kind == InputKind::kMesh) {
-    collected_.one.parts.clear();
+    files.one.parts.clear();
     mesh_extent_.reset();
   } else {
-    collected_.one.seed.clear();
+    files.one.seed.clear();
   }
-  judgeCollected();
+  collect(files);
 }
 
 FilesSituation SessionFiles::situation() const {
@@ -207,6 +216,7 @@ FilesSituation SessionFiles::situation() const {
 
 void SessionFiles::forgetCollected() {
   collected_ = {};
+  ++collection_;
   judged_ = {};
   picture_ = {};
   mesh_extent_.reset();
@@ -218,8 +228,9 @@ void SessionFiles::makeSeedless() {
 }
 
 void SessionFiles::setMeshUnit(const std::string& unit) {
-  for (sessions::PartSource& part : collected_.one.parts) part.mesh_unit = unit;
-  judgeCollected();
+  DroppedFiles files = collected_;
+  for (sessions::PartSource& part : files.one.parts) part.mesh_unit = unit;
+  collect(files);
   if (collected_.isCase()) makeCollected();
 }
 
@@ -249,11 +260,20 @@ void SessionFiles::measureMesh() {
       [](const QString&) {});  // reported when the case is created
 }
 
-/// After the mesh was measured: the same thread does one after the other.
+/// After the mesh was measured: the same thread does one after the other. Of the same files one
+/// case is made, however often it is requested.
 void SessionFiles::makeCollected() {
+  if (!requested_.insert(collection_).second) return;
+  const Request request{collected_, collection_, kept_};
   parts_.of_document.ofDocument(
-      tr("The new case"), [](const std::stop_token&) { return true; },
-      [this](bool) { addCase(kept_); }, reportTo(this, &SessionFiles::failed));
+      newCaseName(), [](const std::stop_token&) { return true; },
+      [this, request](bool) {
+        if (!addCase(request)) requested_.erase(request.collection);
+      },
+      [this, request](const QString& message) {
+        requested_.erase(request.collection);
+        Q_EMIT failed(message);
+      });
 }
 
 void SessionFiles::openExample(const std::filesystem::path& file) {
@@ -302,52 +322,77 @@ void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
       reportTo(this, &SessionFiles::failed));
 }
 
-/// `kept`: names of files of earlier drops that the case is made of, too.
-void SessionFiles::addCase(const QString& kept) {
+ResultName SessionFiles::newCaseName() {
+  return {tr("The new case"), tr("choose its files again")};
+}
+
+/// Whether a dialog was about the session that is open; tells where it was not.
+bool SessionFiles::isStillOpen(int opening) {
+  if (opening == parts_.document.openings()) return true;
+  Q_EMIT failed(
+      tr("The new case was not added: another session was opened meanwhile. Choose its "
+         "files again in the session that it belongs to."));
+  return false;
+}
+
+/// False: no case is made of them.
+bool SessionFiles::addCase(Request request) {
   // Also shown at its file, which is out of sight where a case is open.
   const FilesSituation files = situation();
-  if (!files.problem.isEmpty()) {
+  if (request.collection == collection_ && !files.problem.isEmpty()) {
     std::filesystem::path file = collected_.fileOf(*nextKind());
     if (file.empty()) file = collected_.one.image;  // the camera is in the image's label
     Q_EMIT failed(tr("%1: %2").arg(text(file.filename()), files.problem));
-    return;
+    return false;
   }
-  if (!askForUnits()) return;
+  const int opening = parts_.document.openings();
+  if (!askForUnits(request.files) || !isStillOpen(opening)) return false;
+  if (request.collection == collection_) collected_.one.parts = request.files.one.parts;
+  makeCase(request);
+  return true;
+}
+
+void SessionFiles::makeCase(const Request& request) {
   Q_EMIT noted(tr("Reading the files ..."));
   parts_.of_document.ofDocument(
-      tr("The new case"),
-      [files = collected_](const std::stop_token&) {
+      newCaseName(),
+      [files = request.files](const std::stop_token&) {
         sessions::SessionCase session_case = sessions::makeCase(files.one).made;
         if (files.record)
           session_case.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
         return session_case;
       },
-      [this, kept](sessions::SessionCase session_case) {
-        // The collected files stay when they make no case yet: a further file may be needed.
-        if (!takeCase(std::move(session_case))) {
-          Q_EMIT noted({});
-          return;
-        }
-        forgetCollected();
-        Q_EMIT noted(kept.isEmpty() ? QString() : tr("Also of earlier drops: %1").arg(kept));
+      [this, request](sessions::SessionCase session_case) {
+        const bool taken = takeCase(std::move(session_case));
+        requested_.erase(request.collection);
+        // The collected files stay when they make no case yet: a further file may be needed. So do
+        // those of a later drop.
+        if (taken && request.collection == collection_) forgetCollected();
+        Q_EMIT noted(taken && !request.kept.isEmpty()
+                         ? tr("Also of earlier drops: %1").arg(request.kept)
+                         : QString());
       },
-      reportTo(this, &SessionFiles::failed));
+      [this, request](const QString& message) {
+        requested_.erase(request.collection);
+        Q_EMIT failed(message);
+      });
 }
 
 /// Part of the open session, or a new one where none can be edited. False when it is in no session:
 /// the operator has cancelled, or it cannot be written.
 bool SessionFiles::takeCase(sessions::SessionCase session_case) {
   Document& document = parts_.document;
-  const bool alone = !document.isEditable();
-  if (!alone && !askForId(session_case)) return false;
-  const QString id = fromText(session_case.id);
-  const sessions::Session session =
-      sessions::withCase(alone ? sessions::Session() : document.session(), std::move(session_case));
-  if (alone) {
+  if (!document.isEditable()) {
     const std::optional<Former> former = mayLeave();
-    return former && document.createUntitled(session, *former);
+    return former && document.createUntitled(
+                         sessions::withCase(sessions::Session(), std::move(session_case)), *former);
   }
-  if (!document.edit(session, tr("Add %1").arg(id))) return false;
+  const int opening = document.openings();
+  if (!askForId(session_case) || !isStillOpen(opening)) return false;
+  const QString id = fromText(session_case.id);
+  if (!document.edit(sessions::withCase(document.session(), std::move(session_case)),
+                     tr("Add %1").arg(id)))
+    return false;
   parts_.cases.chooseCase(id);
   Q_EMIT caseAdded();
   return true;
@@ -355,7 +400,7 @@ bool SessionFiles::takeCase(sessions::SessionCase session_case) {
 
 /// A case of the same id may be replaced, or both kept. False: neither.
 bool SessionFiles::askForId(sessions::SessionCase& session_case) {
-  const sessions::Session& session = parts_.document.session();
+  const sessions::Session session = parts_.document.session();
   if (session.findCase(session_case.id) == nullptr) return true;
   const std::string free = sessions::freeCaseId(session, session_case.id);
   const QString id = fromText(session_case.id);
@@ -370,14 +415,16 @@ bool SessionFiles::askForId(sessions::SessionCase& session_case) {
   QAbstractButton* replace =
       named(box.addButton(tr("Replace"), QMessageBox::DestructiveRole), "replaceCase");
   box.exec();
-  if (box.clickedButton() == both) session_case.id = free;
+  // Of the session as it is by now.
+  if (box.clickedButton() == both)
+    session_case.id = sessions::freeCaseId(parts_.document.session(), session_case.id);
   return box.clickedButton() == both || box.clickedButton() == replace;
 }
 
-bool SessionFiles::askForUnits() {
+bool SessionFiles::askForUnits(DroppedFiles& files) {
   QStringList units;
   for (const char* unit : kMeshUnits) units << meshUnitText(unit, mesh_extent_);
-  for (sessions::PartSource& part : collected_.one.parts) {
+  for (sessions::PartSource& part : files.one.parts) {
     if (!part.mesh_unit.empty() || sessions::statesUnit(part.mesh)) continue;
     bool chosen = false;
     const QString unit = QInputDialog::getItem(
@@ -435,23 +482,23 @@ void SessionFiles::offerSavingElsewhere(const QString& reason) {
 }
 
 bool SessionFiles::mayLoseRuns() {
-  const QStringList runs = parts_.cases.unstoredRuns();
+  const QStringList runs = parts_.store.unstored();
   if (runs.isEmpty()) return true;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"),
                   tr("Runs of %1 are not stored; they exist only in this window.")
                       .arg(runs.join(QStringLiteral(", "))),
                   QMessageBox::Discard | QMessageBox::Cancel, &window_);
-  box.setInformativeText(parts_.cases.unstoredReason());
+  box.setInformativeText(parts_.store.unstoredReason());
   noteInLog(box);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   const int answer = box.exec();
-  if (box.clickedButton() == elsewhere && saveAs()) parts_.cases.finishStoring();
-  return answer == QMessageBox::Discard || parts_.cases.unstoredRuns().isEmpty();
+  if (box.clickedButton() == elsewhere && saveAs()) parts_.store.finish();
+  return answer == QMessageBox::Discard || parts_.store.unstored().isEmpty();
 }
 
 std::optional<Former> SessionFiles::mayLeave() {
   Q_EMIT parts_.document.aboutToChange();  // or a gesture under way would be lost
-  parts_.cases.finishStoring();            // in the session that they were run from
+  parts_.store.finish();                   // in the session that they were run from
   if (!mayLoseRuns()) return std::nullopt;
   const Document& document = parts_.document;
   const std::filesystem::path asked = document.file();

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -105,20 +106,33 @@ class SessionFiles : public QObject {
   void queueWanted();
 
  private:
+  /// The collected files as they are when a case of them is requested.
+  struct Request {
+    DroppedFiles files;
+    int collection = 0;
+    QString kept;  ///< names of files of earlier drops
+  };
+
+  void collect(const DroppedFiles& files);
   void makeFrom(const std::filesystem::path& file, bool results);
-  void addCase(const QString& kept);
+  [[nodiscard]] bool addCase(Request request);
+  void makeCase(const Request& request);
   [[nodiscard]] bool takeCase(sessions::SessionCase session_case);
   [[nodiscard]] bool askForId(sessions::SessionCase& session_case);
+  bool isStillOpen(int opening);
+  static ResultName newCaseName();
   void makeCollected();
   void judgeCollected();
   std::optional<InputKind> nextKind() const;
   void measureMesh();
-  bool askForUnits();
+  bool askForUnits(DroppedFiles& files);
   bool mayLoseRuns();
 
   QWidget& window_;
   WindowParts& parts_;
-  DroppedFiles collected_;  ///< of a case that is not complete yet
+  DroppedFiles collected_;   ///< of a case that is not complete yet
+  int collection_ = 0;       ///< another number after each change of the collected files
+  std::set<int> requested_;  ///< collections of which a case is being made
   sessions::JudgedFiles judged_;
   QImage picture_;
   QString kept_;  ///< names of the files from an earlier drop

@@ -68,10 +68,9 @@ QString shownTitle(const sessions::Session& session, const ViewState& state) {
   if (!shown->finished) return WindowFrame::tr("%1: run not finished").arg(fromText(id));
   int count = 0;
   int number = 0;
-  for (const sessions::RunRecord& run : session.runs) {
-    if (run.case_id != id) continue;
+  for (const sessions::RunRecord* run : session.runs.findAll(id)) {
     ++count;
-    if (run.digest == shown->digest) number = count;
+    if (run->digest == shown->digest) number = count;
   }
   const QString outcome =
       shown->converged() ? WindowFrame::tr("converged") : WindowFrame::tr("no result");

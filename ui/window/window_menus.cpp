@@ -420,7 +420,7 @@ void WindowMenus::update() {
   const bool idle = has_case && !working;
   const bool replayed = parts_.onboard.showsOnboard();
   ui_.save->setEnabled(editable && (document.isModified() || document.isUntitled() ||
-                                    !parts_.cases.unstoredRuns().isEmpty()));
+                                    !parts_.store.unstored().isEmpty()));
   ui_.saveAs->setEnabled(open);
   ui_.undo->setEnabled(editable && document.canUndo());
   ui_.redo->setEnabled(editable && document.canRedo());

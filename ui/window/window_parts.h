@@ -12,6 +12,7 @@
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/run_store.h"
 
 namespace boresight::ui {
 
@@ -23,7 +24,8 @@ struct WindowParts {
   TaskRunner tasks;
   DocumentTasks of_document{document, tasks};
   RunController run;
-  CaseController cases{document, state, run, tasks, of_document};
+  RunStore store{document};
+  CaseController cases{document, state, run, store, tasks, of_document};
   AnnotationController annotation{document, state};
   OnboardController onboard{document, state, tasks};
   QualityController quality{document, state, tasks};

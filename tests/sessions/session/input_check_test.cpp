@@ -42,6 +42,20 @@ TEST(InputCheck, ReportsWhatIsMissingOrChanged) {
     EXPECT_NE(folder.message([&] { (void)loadCase(*session_case); }), "(nothing)");
 }
 
+/// Closing the window waited until every file was hashed.
+TEST(InputCheck, Stop_LeavesOutTheFilesThatAreNotHashed) {
+  const TemporaryFolder folder;
+  const std::filesystem::path stations = copyOfExamples(folder);
+  const Session session = makeSession(stations / "dataset.json");
+  std::ofstream(stations / "bc/model.ply", std::ios::app) << "\n";
+  std::filesystem::rename(stations / "os/image.png", stations / "os/moved.png");
+  std::stop_source stopped;
+  stopped.request_stop();
+  EXPECT_THAT(checkInputs(session, stopped.get_token()), IsEmpty());
+  EXPECT_THAT(findMissing(session, stations / "s.json", stopped.get_token()), IsEmpty());
+  EXPECT_EQ(findMissing(session, stations / "s.json").size(), 1u);
+}
+
 TEST(InputCheck, Acceptance_SetsTheHashesOfTheFilesThatItReadAndNothingElse) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);

@@ -53,7 +53,8 @@ class QueuePanelTest : public test::SharedWindowTest {
   void SetUp() override {
     window_.resize(1700, 900);  // with room for the queue and the checks
     queue().setHalted(false);
-    for (const char* name : {"queueFilter", "decisionName", "decisionComment"}) field(name).clear();
+    field("queueFilter").clear();
+    window_.findChild<DecisionForm*>()->forgetName();  // and the drafts of an earlier test
     SharedWindowTest::SetUp();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
     QTest::keySequence(&window_, QKeySequence(QStringLiteral("Shift+F9")));
@@ -245,6 +246,18 @@ TEST_F(QueuePanelTest, DraftOfAComment_StaysWithItsCase) {
   press(Qt::Key_K);
   ASSERT_TRUE(shown(bad_));
   EXPECT_EQ(field("decisionComment").text(), QStringLiteral("blurred"));
+}
+
+TEST_F(QueuePanelTest, CommentTypedWhileACaseIsRead_IsOfThatCase) {
+  field("decisionComment").setText(QStringLiteral("of the first"));
+  click(good_);
+  ASSERT_FALSE(window_.state().currentCase()) << "it is being read";
+  field("decisionComment").setText(QStringLiteral("typed at once"));
+  ASSERT_TRUE(shown(good_));
+  EXPECT_EQ(field("decisionComment").text(), QStringLiteral("typed at once"));
+  press(Qt::Key_K);
+  ASSERT_TRUE(shown(bad_));
+  EXPECT_EQ(field("decisionComment").text(), QStringLiteral("of the first"));
 }
 
 TEST_F(QueuePanelTest, DecisionThatHolds_IsOverruledOnlyByTheSecondRequest) {

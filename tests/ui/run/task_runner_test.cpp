@@ -157,6 +157,25 @@ TEST_F(TaskRunnerTest, FailureOfAnyKind_IsReceivedAsASentence_UnlessTheTaskWasDr
   EXPECT_FALSE(failures_[2].isEmpty());
 }
 
+/// Its owner was told of two ends: that of the failure, and that of the task.
+TEST_F(TaskRunnerTest, TaskOfWhichAReportThrows_EndsOnceAndIsStopped) {
+  bool stopped = false;
+  const auto work = [&](const std::stop_token& stop, const TaskRunner::Report& report) {
+    report([] { throw std::runtime_error("no luck"); });
+    while (!stop.stop_requested()) std::this_thread::yield();
+    stopped = true;
+    report([this] { taken_.push_back(1); });
+    throw std::runtime_error("once more");
+  };
+  runner_.queue(work, fail_);
+  runner_.queue(work, [](const QString&) { throw std::runtime_error("the receiver, too"); });
+  runner_.queue(valueOf(2), take_, fail_);
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(stopped);
+  EXPECT_EQ(failures_, QStringList{QStringLiteral("no luck")});
+  EXPECT_EQ(taken_, std::vector<int>{2});
+}
+
 TEST(TaskRunner, Destruction_WhileATaskRuns_IsSafe) {
   std::promise<void> begun;
   TaskRunner runner;

@@ -244,7 +244,7 @@ class Walk {
 
  private:
   bool working() { return window_.run().state() == ui::RunState::kWorking; }
-  bool rests() { return !window_.tasks().isBusy() && !working(); }
+  bool rests() { return !window_.tasks().isBusy() && !window_.store().isStoring() && !working(); }
   static void settle() {
     QElapsedTimer clock;
     clock.start();

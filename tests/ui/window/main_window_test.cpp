@@ -256,6 +256,48 @@ TEST_F(MainWindowTest, ClosingItKeepsARunThatHasJustEnded) {
   EXPECT_FALSE(window_.document().isModified());
 }
 
+/// The run was ended without a word.
+TEST_F(MainWindowTest, ClosingItDuringARunOrABatch_AsksOnceAndKeepsWhatIsDone) {
+  openExample(true);
+  QString asked;
+  const auto answer = [&asked](const char* button) {
+    return test::ModalAnswer<QMessageBox>([&asked, button](QMessageBox& box) {
+      if (auto* chosen = box.findChild<QAbstractButton*>(QLatin1String(button))) {
+        asked = box.informativeText();
+        chosen->click();
+      } else {
+        box.button(QMessageBox::Save)->click();
+      }
+    });
+  };
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(becomes(RunState::kWorking));
+  {
+    const auto stay = answer("stay");
+    EXPECT_FALSE(window_.close());
+  }
+  EXPECT_TRUE(test::has(asked, "is run"));
+  EXPECT_EQ(window_.run().state(), RunState::kWorking);
+  ASSERT_TRUE(becomes(RunState::kFinished));
+  ASSERT_TRUE(wait([&] { return session().runs.size() == 1; }));
+
+  moveSeed(1e-4);
+  ASSERT_TRUE(rests());
+  bool closed = false;
+  QObject::connect(&window_.cases(), &CaseController::batchChanged, &window_, [&] {
+    const auto& batch = window_.cases().batch();
+    if (closed || !batch || batch->done != 1 || batch->iteration != 1) return;
+    const auto end = answer("endJobs");
+    closed = window_.close();
+  });
+  key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(wait([&] { return closed; }));
+  EXPECT_TRUE(test::has(asked, "1 of 2"));
+  EXPECT_FALSE(window_.cases().batch());
+  EXPECT_EQ(session().runs.size(), 2u) << "the run that had ended";
+  EXPECT_FALSE(window_.document().isModified());
+}
+
 TEST_F(MainWindowTest, StepsAStageAndAnIteration) {
   openExample(true);
   for (const Stage stage : {Stage::kEdges, Stage::kSearch, Stage::kRender}) {

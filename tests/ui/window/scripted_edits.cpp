@@ -102,8 +102,8 @@ class Operator {
   /// A run that ends is an action, too: it is in the session when it is confirmed.
   bool run() {
     const auto rests = [this] {
-      return !window_.tasks().isBusy() && window_.run().state() != ui::RunState::kWorking &&
-             window_.state().currentCase();
+      return !window_.tasks().isBusy() && !window_.store().isStoring() &&
+             window_.run().state() != ui::RunState::kWorking && window_.state().currentCase();
     };
     while (!rests()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
     window_.cases().advance(sessions::StepUntil::kEnd);

@@ -296,8 +296,44 @@ TEST_F(ShownCaseTest, RunThatIsBeingStored_IsNotRecordedInAnotherSession) {
   ASSERT_TRUE(wait([&] { return left; }));
   ASSERT_TRUE(showsCase(a()));
   EXPECT_TRUE(session().runs.empty());
-  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
-  EXPECT_TRUE(test::has(window_.lastMessage(), first.filename().c_str()));
+  EXPECT_TRUE(window_.store().unstored().isEmpty());
+  EXPECT_TRUE(test::has(window_.lastMessage(), first.c_str())) << "where it belongs";
+  EXPECT_TRUE(test::has(window_.lastMessage(), "again")) << "how to have it";
+}
+
+/// A task that holds the thread that reads files.
+struct HeldReader {
+  explicit HeldReader(TaskRunner& tasks) {
+    tasks.queue(
+        [held = gate.get_future().share()](const std::stop_token&) {
+          held.wait();
+          return 1;
+        },
+        [](int) {}, [](const QString&) {});
+  }
+  std::promise<void> gate;
+};
+
+/// It waited for them: of a dataset some minutes.
+TEST_F(ShownCaseTest, RunThatHasEnded_IsStoredWhileFilesAreRead) {
+  openExample();
+  HeldReader reader(window_.tasks());
+  QTest::keyClick(&window_, Qt::Key_F5);
+  EXPECT_TRUE(wait([&] { return session().runs.size() == 1; }));
+  reader.gate.set_value();
+  ASSERT_TRUE(rests());
+}
+
+/// A run that was read to be shown came over one that was begun and halted meanwhile.
+TEST_F(ShownCaseTest, RunThatIsReadToBeShown_DoesNotReplaceALaterOne) {
+  openRun();
+  HeldReader reader(window_.tasks());
+  window_.cases().showRun(session().runs[0].digest);
+  window_.cases().advance(sessions::StepUntil::kStage);
+  EXPECT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+  reader.gate.set_value();
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(window_.state().snapshot(), window_.run().snapshot());
 }
 
 /// What cannot be stored is known, whatever the reason, and is stored as soon as that is possible.
@@ -306,12 +342,12 @@ TEST_F(ShownCaseTest, RunWhoseFolderIsAFile_IsKeptWithTheReasonAndStoredLater) {
   const std::filesystem::path runs = sessions::runsFolderOf(file_);
   std::ofstream(runs) << "not a folder";
   QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return !window_.cases().unstoredRuns().isEmpty(); }));
-  EXPECT_FALSE(window_.cases().unstoredReason().isEmpty());
+  ASSERT_TRUE(wait([&] { return !window_.store().unstored().isEmpty(); }));
+  EXPECT_FALSE(window_.store().unstoredReason().isEmpty());
   std::filesystem::remove(runs);
   ASSERT_TRUE(window_.document().save());
   ASSERT_TRUE(wait([&] { return session().runs.size() == 1; }));
-  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
+  EXPECT_TRUE(window_.store().unstored().isEmpty());
 }
 
 TEST_F(ShownCaseTest, ClosingDuringAnExport_Asks) {

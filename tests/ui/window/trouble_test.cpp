@@ -84,11 +84,10 @@ TEST_F(TroubleTest, ARunThatDoesNotFitIsKeptAndStoredElsewhere) {
   openExample();
   RoomElsewhere room{elsewhere_};
   QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([this] {
-    return !window_.document().session().runs.empty() && !window_.tasks().isBusy();
-  })) << room.answers.text.toStdString();
+  ASSERT_TRUE(wait([this] { return !window_.document().session().runs.empty() && resting(); }))
+      << room.answers.text.toStdString();
   EXPECT_FALSE(room.answers.text.isEmpty());
-  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
+  EXPECT_TRUE(window_.store().unstored().isEmpty());
   const sessions::RunRecord& record = window_.document().session().runs.front();
   EXPECT_EQ(record.digest, window_.state().snapshot()->digest);
   EXPECT_TRUE(std::filesystem::exists(record.file));
@@ -102,7 +101,7 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
     const FullDisk disk(64);
     Answers answers{QStringLiteral("Close")};
     QTest::keyClick(&window_, Qt::Key_F5);
-    ASSERT_TRUE(wait([this] { return !window_.cases().unstoredRuns().isEmpty(); }));
+    ASSERT_TRUE(wait([this] { return !window_.store().unstored().isEmpty(); }));
     EXPECT_TRUE(test::has(answers.text, "all changes are still in this window"));
     EXPECT_TRUE(window_.document().session().runs.empty());
   }
@@ -110,7 +109,7 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
     Answers answers{QStringLiteral("Cancel")};
     EXPECT_FALSE(window_.close()) << "the run would be lost";
     EXPECT_TRUE(test::has(answers.text, "are not stored"));
-    const QString reason = window_.cases().unstoredReason();
+    const QString reason = window_.store().unstoredReason();
     EXPECT_FALSE(reason.isEmpty());
     EXPECT_TRUE(answers.text.contains(reason)) << "why";
   }
@@ -118,7 +117,7 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   QTest::keySequence(&window_, QKeySequence::Save);
   ASSERT_TRUE(wait([this] { return window_.document().session().runs.size() == 1; }));
-  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
+  EXPECT_TRUE(window_.store().unstored().isEmpty());
   ASSERT_TRUE(window_.document().save());
 }
 

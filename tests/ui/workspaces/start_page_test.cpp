@@ -136,6 +136,61 @@ TEST_F(StartPageTest, FilesMakeACaseOfTheOpenSession) {
   EXPECT_EQ(window_.document().file(), file_);
 }
 
+/// The second click asked whether to replace the case of the first.
+TEST_F(StartPageTest, DoubleClick_MakesOneCase) {
+  openExample();
+  window_.workspaces().show(Workspace::kStart);
+  window_.takeFiles({os_ / "image.png", os_ / "camera.json", os_ / "model.ply"});
+  files().setMeshUnit("m");
+  int questions = 0;
+  const test::ModalAnswer<QMessageBox> cancels([&questions](QMessageBox& box) {
+    ++questions;
+    box.reject();
+  });
+  auto& make = find<QPushButton>("makeSeedless");
+  make.click();
+  make.click();
+  ASSERT_TRUE(wait([&] { return window_.document().session().cases.size() == 3 && resting(); }));
+  EXPECT_EQ(questions, 0);
+}
+
+/// They were forgotten with those of the case that was being made.
+TEST_F(StartPageTest, FilesDroppedWhileACaseIsMade_Stay) {
+  openExample();
+  window_.takeFiles({os_ / "image.png", os_ / "camera.json", os_ / "model.ply"});
+  files().setMeshUnit("m");
+  files().makeSeedless();
+  const auto bc = test::exampleFolder() / "bc";
+  window_.takeFiles({bc / "image.png", bc / "camera.json"});
+  ASSERT_TRUE(wait([&] { return window_.document().session().cases.size() == 3 && resting(); }));
+  EXPECT_EQ(files().collected().one.image, bc / "image.png");
+  EXPECT_EQ(files().collected().count(), 2);
+}
+
+/// The answer was taken for the session that was open by then.
+TEST_F(StartPageTest, CaseThatIsAskedAbout_DoesNotReachAnotherSession) {
+  openExample();
+  const auto make = [&] {
+    window_.takeFiles({os_ / "image.png", os_ / "camera.json", os_ / "model.ply"});
+    files().setMeshUnit("m");
+    files().makeSeedless();
+  };
+  make();
+  ASSERT_TRUE(wait([&] { return window_.document().session().cases.size() == 3 && resting(); }));
+  bool asked = false;
+  const test::ModalAnswer<QMessageBox> keeps_both([&](QMessageBox& box) {
+    auto* both = box.findChild<QAbstractButton*>(QStringLiteral("keepBoth"));
+    if (both == nullptr || std::exchange(asked, true)) return box.reject();
+    ASSERT_TRUE(
+        window_.document().create(folder_ / "other.boresight.json", window_.document().session()));
+    both->click();
+  });
+  make();
+  ASSERT_TRUE(wait([&] { return asked && resting(); }));
+  EXPECT_EQ(window_.document().session().cases.size(), 3u);
+  EXPECT_TRUE(test::has(window_.lastMessage(), "another session was opened"));
+}
+
 TEST(LeftWork, IsOfferedAndRecoveredOrDiscarded) {
   const test::OwnDataFolder data;
   for (const char* button : {"recoverLeft", "discardLeft"}) {
