@@ -109,16 +109,19 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
 /// Changes of focal length and principal point when they are fitted to the edges together with the
 /// pose.
 struct CameraFit {
-  double focal_px = 0.0;   ///< change of the focal length
-  double centre_px = 0.0;  ///< length of the principal point's change
+  double focal_px = 0.0;  ///< change of the focal length
   double focal_sigma_px = 0.0;
-  double centre_sigma_px = 0.0;  ///< along the change
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< the principal point's change
+  Eigen::Matrix2d centre_covariance_px2 = Eigen::Matrix2d::Zero();
+
+  double centreSigma_px() const;  ///< along the change
 };
 
 /// Least squares over the distances along the normals with Tukey's weights, linear about the pose.
 /// The sigmas account for common errors of edges (a bevel, a shadow): square tiles of the image
-/// count as one observation each (cluster-robust covariance, Liang and Zeger 1986). Empty with
-/// fewer than 60 edges found, or when these do not determine all nine unknowns.
+/// count as one observation each. What the edges of a whole image share, as by light from one side,
+/// is not in them: rendered stations are 1.4 to 2.2 sigma off (`resources/evidence/trust.md`).
+/// Empty with fewer than 60 edges found, or when these do not determine all nine unknowns.
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
                                    const Pose& camera_from_station);
 

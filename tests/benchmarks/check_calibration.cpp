@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the checks of right and deliberately wrong poses, and judges limits by them.
 //
-//   check_calibration measure DATASET OUT.jsonl [EVERY]   runs what OUT does not have yet; what is
-//   made wrong
-//                                                   only of every n-th case
-//   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses again
-//   check_calibration convergence DATASET OUT.jsonl NEW.jsonl SEEDS  adds the convergence test to
-//   what passes check_calibration judge OUT.jsonl ...                 by the limits as they are now
+//   check_calibration measure DATASET OUT.jsonl [EVERY [KIND ...]]
+//     runs what OUT does not have yet; what is made wrong only of every n-th case, and only
+//     variants whose names start with a KIND
+//   check_calibration recheck DATASET OUT.jsonl NEW.jsonl
+//     measures the edges of the poses again
+//   check_calibration convergence DATASET OUT.jsonl NEW.jsonl SEEDS
+//     adds the convergence test to what passes
+//   check_calibration judge OUT.jsonl ...
+//     by the limits as they are now
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -126,6 +129,8 @@ class Judgement {
       failed += " " + check["id"].get<std::string>();
       ++by_check_[set + "  " + check["id"].get<std::string>()][line["right"] ? 1 : 0];
     }
+    const bool refuses_camera = failed.find(" camera_") != std::string::npos;
+    ++by_camera_[set + "  " + line["variant"].get<std::string>()][refuses_camera ? 1 : 0];
     count(line, set, failed);
   }
 
@@ -135,6 +140,9 @@ class Judgement {
       std::printf("%-34s %9d %9d\n", name.c_str(), counts[1], counts[0]);
     std::printf("\n%-34s %9s %9s\n", "failed check", "right", "wrong");
     for (const auto& [name, counts] : by_check_)
+      std::printf("%-34s %9d %9d\n", name.c_str(), counts[1], counts[0]);
+    std::printf("\n%-34s %9s %9s\n", "camera checks", "failed", "passed");
+    for (const auto& [name, counts] : by_camera_)
       std::printf("%-34s %9d %9d\n", name.c_str(), counts[1], counts[0]);
     std::printf("\n%s", exceptions_.c_str());
     std::printf("\n%-34s %6s %8s %6s %7s\n", "half", "right", "refused", "wrong", "passed");
@@ -168,6 +176,7 @@ class Judgement {
 
   std::map<std::string, std::array<int, 2>> runs_;
   std::map<std::string, std::array<int, 2>> by_check_;
+  std::map<std::string, std::array<int, 2>> by_camera_;
   std::map<std::string, Tally> tallies_;
   std::string exceptions_;
 };
@@ -272,7 +281,8 @@ std::string keyOf(const ordered_json& json) {
   return json["case"].get<std::string>() + "|" + json["variant"].get<std::string>();
 }
 
-int measure(const std::string& dataset, const std::string& out, std::size_t every) {
+int measure(const std::string& dataset, const std::string& out, std::size_t every,
+            const std::vector<std::string>& kinds) {
   const Session session = sessions::makeSession(dataset);
   std::set<std::string> done;
   for (const ordered_json& line : linesOf(out)) done.insert(keyOf(line));
@@ -280,7 +290,11 @@ int measure(const std::string& dataset, const std::string& out, std::size_t ever
   for (std::size_t i = 0; i < session.cases.size(); ++i) {
     const SessionCase& session_case = *session.cases[i];
     for (const std::string& name : variantNames(isPhotograph(session_case))) {
-      if (!isUnaltered(name) && i % every != 0) continue;
+      const bool asked =
+          kinds.empty() || std::ranges::any_of(kinds, [&name](const std::string& kind) {
+            return name.starts_with(kind);
+          });
+      if (!isUnaltered(name) && (i % every != 0 || !asked)) continue;
       ordered_json json = {
           {"case", session_case.id}, {"station", session_case.station}, {"variant", name}};
       json["set"] = isPhotograph(session_case) ? "photographs" : "synthetic";
@@ -337,8 +351,10 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     if (arguments.size() >= 3 && arguments[0] == "measure")
-      return boresight::test::measure(arguments[1], arguments[2],
-                                      arguments.size() > 3 ? std::stoul(arguments[3]) : 1);
+      return boresight::test::measure(
+          arguments[1], arguments[2], arguments.size() > 3 ? std::stoul(arguments[3]) : 1,
+          {arguments.begin() + std::min<std::ptrdiff_t>(4, std::ssize(arguments)),
+           arguments.end()});
     if (arguments.size() == 4 && arguments[0] == "recheck")
       return boresight::test::measureAnew(
           arguments[1], arguments[2], arguments[3],
@@ -353,9 +369,10 @@ int main(int argc, char** argv) {
     std::cerr << error.what() << std::endl;
     return 1;
   }
-  std::cerr << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | "
-               "convergence DATASET "
-               "FROM TO SEEDS | judge OUT ..."
-            << std::endl;
+  std::cerr
+      << "check_calibration measure DATASET OUT [EVERY [KIND ...]] | recheck DATASET FROM TO | "
+         "convergence DATASET "
+         "FROM TO SEEDS | judge OUT ..."
+      << std::endl;
   return 2;
 }

@@ -71,8 +71,10 @@ void change(LoadedCase& loaded, const SessionCase& other, const Pose& truth,
   if (variant == "seed 2x") reseed(loaded, truth, 2.0, 3);
   if (variant == "seed 3x") reseed(loaded, truth, 3.0, 4);
   if (variant == "seed 4x") reseed(loaded, truth, 4.0, 5);
-  if (variant == "focal +1 %") changeCamera(camera, 1.01, 0.0, 0.0);
-  if (variant == "focal -1 %") changeCamera(camera, 0.99, 0.0, 0.0);
+  if (variant == "focal +1.5 %") changeCamera(camera, 1.015, 0.0, 0.0);
+  if (variant == "focal -1.5 %") changeCamera(camera, 0.985, 0.0, 0.0);
+  if (variant == "centre +5 px") changeCamera(camera, 1.0, 5.0, 0.0);
+  if (variant == "centre -5 px") changeCamera(camera, 1.0, 0.0, -5.0);
   if (variant == "centre +10 px") changeCamera(camera, 1.0, 10.0, 0.0);
   if (variant == "centre -10 px") changeCamera(camera, 1.0, 0.0, -10.0);
   if (variant == "focal +3 %") changeCamera(camera, 1.03, 0.0, 0.0);
@@ -109,8 +111,8 @@ std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
 std::vector<std::string> variantNames(bool photographs) {
   std::vector<std::string> names = {"right"};
   if (!photographs)
-    names.insert(names.end(), {"reseed 1", "reseed 2", "focal +1 %", "focal -1 %", "centre +10 px",
-                               "centre -10 px"});
+    names.insert(names.end(), {"reseed 1", "reseed 2", "focal +1.5 %", "focal -1.5 %",
+                               "centre +5 px", "centre -5 px", "centre +10 px", "centre -10 px"});
   names.insert(names.end(), {"other mesh", "mirrored in x", "mirrored in y", "focal +3 %",
                              "focal -3 %", "focal +8 %", "centre +1 %", "centre +4 %", "seed 2x",
                              "seed 3x", "seed 4x", "hidden 50 %", "hidden 75 %"});

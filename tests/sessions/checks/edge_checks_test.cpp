@@ -3,10 +3,15 @@
 #include "sessions/checks/checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -14,6 +19,9 @@
 #include "sessions/checks/pose_uncertainty.h"
 #include "tests/sessions/checks/drawn_box.h"
 #include "tests/sessions/checks/find_check.h"
+#include "tests/support/coverage.h"
+#include "tests/support/example_case.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
 namespace {
@@ -205,6 +213,48 @@ TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   EXPECT_LT(fit->focal_sigma_px, 5.0);
 }
 
+/// Errors of focal length and principal point (x, y) in sigmas, 1,000 draws: edges are found with
+/// Gaussian errors that those of a small tile share in part.
+std::array<std::vector<double>, 3> cameraErrors(const PredictedEdges& edges, const Camera& camera,
+                                                const Pose& camera_from_station) {
+  Random random = test::randomFor("EdgeChecks.Sigmas");
+  std::vector<LookedPlace> looked;
+  for (const EdgePlace& place : thinned(edges.places, 600)) looked.push_back({place, FoundEdge()});
+  std::array<std::vector<double>, 3> errors;
+  for (int draw = 0; draw < 1000; ++draw) {
+    std::map<std::pair<int, int>, double> shared_px;
+    for (LookedPlace& one : looked) {
+      const Eigen::Vector2i tile = (one.place.pixel / 8.0).cast<int>();
+      const auto [at, added] = shared_px.try_emplace({tile.x(), tile.y()}, 0.0);
+      if (added) at->second = 0.1 * random.normal();
+      one.found->offset_px = at->second + 0.3 * random.normal();
+    }
+    const CameraFit fit = fitCamera(looked, camera, camera_from_station).value();
+    errors[0].push_back(fit.focal_px / fit.focal_sigma_px);
+    for (const Eigen::Index axis : {0, 1})
+      errors[static_cast<std::size_t>(axis) + 1].push_back(
+          fit.centre_px[axis] / std::sqrt(fit.centre_covariance_px2(axis, axis)));
+  }
+  return errors;
+}
+
+TEST_F(EdgeChecks, SigmasOfTheCamera_HoldTheErrors) {
+  for (const char* station : {"bc", "os"}) {
+    SCOPED_TRACE(station);
+    const test::ExampleCase example(station);
+    const Pose& pose = example.truth.camera_from_station;
+    const PredictedEdges edges = predictEdges(example.camera, example.scene.view(), pose);
+    for (const auto& errors : cameraErrors(edges, example.camera, pose))
+      test::expectGaussianCoverage(errors);
+  }
+  // A jackknife over few tiles is rather too large.
+  SCOPED_TRACE("box");
+  for (const auto& errors : cameraErrors(box.edges(), box.camera_, box.camera_from_station_)) {
+    test::expectGaussianCoverage(errors, true);
+    EXPECT_LT(test::shareWithinSigmas(errors)[0], 0.8);
+  }
+}
+
 TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
   ReviewSubject subject = this->subject();
   CheckLimits limits;
@@ -234,6 +284,15 @@ TEST_F(EdgeChecks, CameraThatTheEdgesDoNotDetermine_FailsUnlessItsCalibrationIsS
   stated->source.calibration_sigma = StatedCalibration{0.05, 0.3};
   subject.loaded = stated;
   EXPECT_EQ(stateOf("camera_focal"), CheckState::kNotApplicable);
+}
+
+TEST_F(EdgeChecks, ImageThatDeterminesTheCameraTooWeakly_IsUndecidedAndDoesNotPass) {
+  hideLeftHalf();
+  for (const char* id : {"camera_focal", "camera_centre"}) {
+    const Check check = findCheck(edgeChecksOf(subject()), id);
+    EXPECT_EQ(check.state, CheckState::kFailed) << check.sentence;
+    EXPECT_THAT(check.sentence, testing::HasSubstr("cannot confirm the camera"));
+  }
 }
 
 TEST_F(EdgeChecks, PoseThatShowsNothingAndImageOfAnotherSize_Fail) {
