@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/cameras/raw_metadata.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
+
+#include "sessions/text/text_reading.h"
 
 namespace boresight::sessions {
 namespace {
@@ -15,22 +17,19 @@ constexpr const char* kComponents = "camera_model_component_list";
 /// The numbers of "(1,2,3);(4,5,6);2;0.0", whose parentheses and separators carry no meaning.
 /// InputError for anything else.
 std::vector<double> numbersOf(const JsonReader& json) {
+  constexpr const char* kBetween = "(),; ";
   const std::string text = json.text();
   std::vector<double> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (at != end) {
-    if (std::string_view("(),; ").find(*at) != std::string_view::npos) {
-      ++at;
-      continue;
-    }
-    double number = 0.0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || !std::isfinite(number)) json.fail("not a list of numbers");
-    numbers.push_back(number);
-    at = next;
+  for (std::string_view rest = text;;) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(kBetween), rest.size()));
+    if (rest.empty()) return numbers;
+    const std::string_view word = rest.substr(0, rest.find_first_of(kBetween));
+    const auto number = realIn(word);
+    if (!number) json.fail("not a list of numbers: " + noNumberText(word));
+    if (!std::isfinite(*number)) json.fail("not a list of numbers: " + shortWord(word));
+    numbers.push_back(*number);
+    rest.remove_prefix(word.size());
   }
-  return numbers;
 }
 
 CahvModel modelOf(const JsonReader& type, const JsonReader& components) {

@@ -34,7 +34,9 @@ std::string sortKey(const std::string& name) {
   return key;
 }
 
+/// Hidden files, such as those that macOS puts next to each file of a stick, are none.
 bool isImageName(const fs::path& file) {
+  if (file.filename().string().starts_with('.')) return false;
   constexpr std::array kEnds = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".img", ".vic"};
   const std::string end = lowerCase(file.extension().string());
   return std::find(kEnds.begin(), kEnds.end(), end) != kEnds.end();

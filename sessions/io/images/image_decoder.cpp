@@ -2,6 +2,7 @@
 #include "sessions/io/images/image_decoder.h"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "sessions/io/cameras/camera_file.h"
@@ -57,27 +58,47 @@ std::string completeContainerOf(const std::filesystem::path& file, Bytes bytes) 
   return container;
 }
 
-/// The orientation 1 .. 8 that the first directory of a TIFF, or of an Exif block, which is one,
-/// states; 1 where it states none.
-int directoryOrientation(Bytes block) {
+/// The number that the first directory of a TIFF, or of an Exif block, which is one, has for a tag;
+/// empty where it has none.
+std::optional<std::uint64_t> directoryNumber(Bytes block, std::uint64_t tag) {
   const bool big_endian = !block.empty() && block[0] == 'M';
   const auto number = [&](std::uint64_t place, int size) {
     return holds(block, place, static_cast<std::uint64_t>(size))
                ? readUnsigned(block, place, size, big_endian)
                : 0;
   };
-  constexpr std::uint64_t kOrientation = 274, kShort = 3, kBigTiff = 43;
+  constexpr std::uint64_t kShort = 3, kBigTiff = 43;
   const bool big = number(2, 2) == kBigTiff;
   const std::uint64_t directory = big ? number(8, 8) : number(4, 4);
   const std::uint64_t count = std::min(number(directory, big ? 8 : 2), std::uint64_t{65536});
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t entry = directory + (big ? 8 + i * 20 : 2 + i * 12);
-    if (number(entry, 2) != kOrientation) continue;
-    const std::uint64_t stated =
-        number(entry + (big ? 12 : 8), number(entry + 2, 2) == kShort ? 2 : 4);
-    return stated >= 1 && stated <= 8 ? static_cast<int>(stated) : 1;
+    if (number(entry, 2) == tag)
+      return number(entry + (big ? 12 : 8), number(entry + 2, 2) == kShort ? 2 : 4);
   }
-  return 1;
+  return std::nullopt;
+}
+
+/// The orientation 1 .. 8 that such a directory states; 1 where it states none.
+int directoryOrientation(Bytes block) {
+  constexpr std::uint64_t kOrientation = 274;
+  const std::uint64_t stated = directoryNumber(block, kOrientation).value_or(1);
+  return stated >= 1 && stated <= 8 ? static_cast<int>(stated) : 1;
+}
+
+/// Raw files of cameras (DNG, NEF, CR2) are TIFF whose first image is a small preview.
+void requireNoPreview(const std::filesystem::path& file, Bytes tiff) {
+  constexpr std::uint64_t kSubfileType = 254, kReduced = 1;
+  if ((directoryNumber(tiff, kSubfileType).value_or(0) & kReduced) != 0)
+    refuse(file, "TIFF",
+           "begins with a reduced preview, as raw files of cameras do: convert it to a TIFF or PNG "
+           "of its pixels");
+}
+
+/// Whether the samples of a TIFF are a mosaic of colours.
+bool isMosaic(const std::string& container, Bytes bytes) {
+  constexpr std::uint64_t kPhotometric = 262, kColorFilterArray = 32803;
+  return container == "TIFF" && directoryNumber(bytes, kPhotometric) == kColorFilterArray;
 }
 
 /// The same of an XMP packet: tiff:Orientation="6" or <tiff:Orientation>6<.
@@ -115,6 +136,7 @@ class OpenImage {
   OpenImage(const std::filesystem::path& file, Bytes bytes) : file_(file) {
     header_.container = completeContainerOf(file, bytes);
     const std::string driver = header_.container == "TIFF" ? "GTiff" : header_.container;
+    if (header_.container == "TIFF") requireNoPreview(file, bytes);
     dataset_ = openGdal(driver.c_str(), memory_.add("image", bytes));
     if (!dataset_) fail("is truncated, damaged, or of an unsupported kind");
     header_.width = dataset_->GetRasterXSize();
@@ -160,7 +182,9 @@ class OpenImage {
 
   int depthOf(GDALDataType type) const {
     const int bits = bitsStated();
-    if (type == GDT_Byte && (bits <= 2 || bits == 4 || bits == 8)) return CV_8U;
+    const char* kind = band(1).GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
+    const bool is_signed = kind != nullptr && kind == "SIGNEDBYTE"sv;
+    if (type == GDT_Byte && !is_signed && (bits <= 2 || bits == 4 || bits == 8)) return CV_8U;
     if (type == GDT_UInt16 && bits == 0) return CV_16U;
     throw InputError(file_,
                      "samples are not unsigned integers of 8 or 16 bits: write the image as a "
@@ -209,6 +233,11 @@ class OpenImage {
 
   cv::Mat coloured(const cv::Mat& image, const GDALColorTable& table) const {
     if (image.depth() != CV_8U) fail("has a palette of 16 bits; this is not supported");
+    double last = 0.0;
+    cv::minMaxLoc(image, nullptr, &last);
+    if (last >= table.GetColorEntryCount())
+      fail("is damaged: its palette has " + std::to_string(table.GetColorEntryCount()) +
+           " colours, but a pixel has number " + std::to_string(static_cast<int>(last)));
     cv::Mat colours(1, 256, CV_8UC3, cv::Scalar());
     for (int i = 0; i < std::min(256, table.GetColorEntryCount()); ++i) {
       const GDALColorEntry& entry = *table.GetColorEntry(i);
@@ -275,7 +304,8 @@ ImageHeader readImageHeader(const std::filesystem::path& file, Bytes bytes) {
 
 DecodedImage decodeImage(const std::filesystem::path& file, Bytes bytes) {
   OpenImage open(file, bytes);
-  DecodedImage decoded{open.header().container, open.pixels(), {}};
+  DecodedImage decoded{open.header().container, open.pixels(), {}, false};
+  decoded.mosaic = isMosaic(decoded.container, bytes);
   if (const std::string note = orientationNote(decoded.container, bytes); !note.empty())
     decoded.notes.push_back(note);
   if (open.hasFurtherPages())

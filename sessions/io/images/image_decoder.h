@@ -33,12 +33,13 @@ struct DecodedImage {
   cv::Mat pixels;
   /// For the operator: an orientation that is not applied, further pages, damage.
   std::vector<std::string> notes;
+  bool mosaic = false;  ///< the file says that its samples are a mosaic of colours
 };
 
 /// Decodes a PNG, JPEG or TIFF with GDAL's drivers. Palettes become colours, fewer than 8 bits are
 /// spread over 8, and where 0 is white the values are inverted. InputError: errors of
-/// readImageHeader, damaged pixels, samples other than unsigned integers of at most 8, or of 16
-/// bits, colours other than gray and RGB.
+/// readImageHeader, damaged pixels, a preview in front of the image, samples other than unsigned
+/// integers of at most 8, or of 16 bits, colours other than gray and RGB.
 DecodedImage decodeImage(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 }  // namespace boresight::sessions

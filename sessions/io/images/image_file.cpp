@@ -36,6 +36,11 @@ void demosaic(const std::filesystem::path& file, BayerPattern pattern, cv::Mat& 
   pixels = color;
 }
 
+std::string mosaicNote(const std::string& pattern) {
+  return "the pixels are a mosaic of colours" + (pattern.empty() ? "" : " (" + pattern + ")") +
+         ": state its pattern with --bayer, or convert it before matching";
+}
+
 /// The samples of an image file before they become 8 bits.
 struct FileSamples {
   std::optional<LabelSamples> labelled;  ///< of an image with a label; holds what `pixels` shows
@@ -63,6 +68,7 @@ FileSamples decode(const std::filesystem::path& file, const std::optional<BayerP
     decoded.sample_bits = image.pixels.depth() == CV_16U ? 16 : 8;
     image.pixels.convertTo(decoded.pixels, CV_16U);
     decoded.notes = std::move(image.notes);
+    if (image.mosaic && !bayer) decoded.notes.push_back(mosaicNote(""));
     decoded.sha256 = sha256Text(bytes);
   }
   if (bayer) demosaic(file, *bayer, decoded.pixels);
@@ -182,9 +188,7 @@ void takeLabel(const LabelSamples& labelled, const ImageReadOptions& options, Gr
   gray.label = labelled.label;
   if (!labelled.rule.empty()) gray.rule = labelled.rule + "; ";
   const std::string& mosaic = labelled.label->bayer_pattern;
-  if (!mosaic.empty() && !options.bayer)
-    gray.notes.push_back("the pixels are a mosaic of colours (" + mosaic +
-                         "): state its pattern with --bayer, or convert it before matching");
+  if (!mosaic.empty() && !options.bayer) gray.notes.push_back(mosaicNote(mosaic));
   if (labelled.quantized && options.bit_depth && *options.bit_depth != 16)
     throw InputError(gray.file, "bit_depth",
                      std::to_string(*options.bit_depth) +

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/base/digest.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
@@ -247,9 +249,11 @@ MeshDeclaration checkGltfJson(const std::filesystem::path& file, std::string_vie
   const JsonDocument document(file, text);
   const JsonReader gltf = document.root();
   MeshDeclaration declaration;
+  const auto accessors = gltf.find("accessors");
+  if (accessors && accessors->value().is_object())
+    throw InputError(file, "is glTF 1.0: export the mesh as glTF 2.0");
   checkRequiredExtensions(gltf);
   checkBufferViews(gltf);
-  const auto accessors = gltf.find("accessors");
   const auto meshes = gltf.find("meshes");
   if (!accessors || !meshes) throw InputError(file, "the mesh has no faces");
   checkGltfNodes(gltf);

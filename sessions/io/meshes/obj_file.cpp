@@ -60,6 +60,12 @@ std::optional<std::int64_t> vertexOfCorner(std::string_view corner) {
   return vertex == 0 ? std::nullopt : vertex;
 }
 
+/// Where a face has the vertex with the largest number.
+struct LastCorner {
+  std::int64_t vertex = 0;
+  std::int64_t line = 0;
+};
+
 class ObjLine {
  public:
   ObjLine(const std::filesystem::path& file, std::string_view text, std::int64_t number)
@@ -75,11 +81,14 @@ class ObjLine {
     }
   }
 
-  /// The number of corners.
-  int checkFace() {
+  /// The number of corners; `last` becomes the corner with the largest index so far.
+  int checkFace(std::int64_t vertices, LastCorner& last) {
     int corners = 0;
     for (std::string_view text = word(); !text.empty(); text = word()) {
-      if (!vertexOfCorner(text)) fail("'" + shortWord(text) + "' is not a corner of a face");
+      const auto vertex = vertexOfCorner(text);
+      if (!vertex) fail("'" + shortWord(text) + "' is not a corner of a face");
+      if (*vertex < -vertices) failMissing(*vertex, vertices);
+      if (*vertex > last.vertex) last = {*vertex, number_};
       ++corners;
     }
     if (corners == 0) fail("a face has no corners");
@@ -97,6 +106,10 @@ class ObjLine {
 
   [[noreturn]] void fail(const std::string& reason) const {
     throw InputError(file_, "line " + std::to_string(number_), reason);
+  }
+  [[noreturn]] void failMissing(std::int64_t vertex, std::int64_t vertices) const {
+    fail("vertex " + std::to_string(vertex) + " does not exist (there are " +
+         std::to_string(vertices) + ")");
   }
 
  private:
@@ -134,6 +147,7 @@ std::string plainCorners(std::string_view corners) {
 MeshDeclaration checkObj(const std::filesystem::path& file, std::string_view text) {
   MeshDeclaration declaration;
   std::int64_t vertices = 0, faces = 0, unread = 0;
+  LastCorner last;
   forEachLine(text, [&](std::string_view content, std::int64_t number) {
     ObjLine line(file, content, number);
     const std::string_view word = line.word();
@@ -142,7 +156,7 @@ MeshDeclaration checkObj(const std::filesystem::path& file, std::string_view tex
     if (keyword == "v") {
       line.checkVertex();
       ++vertices;
-    } else if (keyword == "f" && line.checkFace() >= 3) {
+    } else if (keyword == "f" && line.checkFace(vertices, last) >= 3) {
       ++faces;
     } else if (isUnreadGeometry(word)) {
       ++unread;
@@ -150,6 +164,7 @@ MeshDeclaration checkObj(const std::filesystem::path& file, std::string_view tex
   });
   if (vertices == 0)
     throw InputError(file, "not an OBJ mesh: it has no line of a vertex (v x y z)");
+  if (last.vertex > vertices) ObjLine(file, "", last.line).failMissing(last.vertex, vertices);
   declaration.vertex_count = vertices;
   declaration.polygon_count = faces;
   if (unread > 0)

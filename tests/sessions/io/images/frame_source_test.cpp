@@ -69,6 +69,14 @@ TEST_F(FrameSourceTest, UnreadableImage_IsAFrameWithItsProblem) {
   EXPECT_FALSE(source->next());
 }
 
+/// macOS writes them to sticks with file systems of other computers.
+TEST_F(FrameSourceTest, HiddenFilesOfAFolder_AreLeftOut) {
+  std::filesystem::create_directory(folder_ / "stick");
+  for (const char* name : {"stick/1.png", "stick/._1.png", "stick/.2.png"})
+    folder_.write(name, std::string_view("x"));
+  EXPECT_THAT(namesOf(folder_ / "stick"), ElementsAre("1.png"));
+}
+
 TEST_F(FrameSourceTest, NothingToRead_IsRefusedWithTheReason) {
   std::filesystem::create_directory(folder_ / "empty");
   folder_.write("empty.txt", std::string_view("# nothing\n"));

@@ -333,6 +333,26 @@ TEST_F(ReadImage, KeepsTheValuesOfTiffOrRefusesThem) {
               HasSubstr("colours other than gray and RGB"));
 }
 
+/// GDAL gives signed bytes as unsigned ones, and of a raw file of a camera its preview.
+TEST_F(ReadImage, TiffWhoseBytesMeanSomethingElse_IsRefusedOrNoted) {
+  EXPECT_THAT(error(smallTiff({10, 200}, {{339, 2}})),
+              HasSubstr("samples are not unsigned integers of 8 or 16 bits"));
+  EXPECT_EQ(read(smallTiff({10, 200}, {{339, 1}})).pixels, (Bytes{10, 200}));
+  EXPECT_EQ(error(smallTiff({10, 20}, {{254, 1}})),
+            "image: the TIFF image begins with a reduced preview, as raw files of cameras do: "
+            "convert it to a TIFF or PNG of its pixels");
+  EXPECT_EQ(read(smallTiff({10, 20}, {{254, 0}})).pixels, (Bytes{10, 20}));
+  const GrayImage mosaic = read(smallTiff({10, 20}, {{262, 32803}}));
+  EXPECT_EQ(mosaic.notes, std::vector<std::string>{
+                              "the pixels are a mosaic of colours: state its pattern with --bayer, "
+                              "or convert it before matching"});
+}
+
+TEST_F(ReadImage, PixelOutsideOfItsPalette_IsRefused) {
+  EXPECT_EQ(error(png(2, 8, 3, {{0, 2}, {1, 1}}, {255, 0, 0, 0, 255, 0})),
+            "image: the PNG image is damaged: its palette has 2 colours, but a pixel has number 2");
+}
+
 TEST_F(ReadImage, OrientationOfTiffIsReportedAndNotApplied) {
   const Bytes stored = {1, 2, 3, 4, 5, 6};
   Bytes wide;

@@ -496,6 +496,8 @@ TEST_F(ReadMesh, Obj_LinesThatCannotBeReadAreNamed) {
             "1' is no keyword: write blanks of ASCII");
   EXPECT_EQ(with("v nan 2 3"), "a.obj: line 1: 'nan' is not a finite number");
   EXPECT_EQ(with("f 0 1 2"), "a.obj: line 1: '0' is not a corner of a face");
+  EXPECT_EQ(with("f 1 9 2"), "a.obj: line 1: vertex 9 does not exist (there are 8)");
+  EXPECT_EQ(with("v 0 0 0\nf 1 1 -2"), "a.obj: line 2: vertex -2 does not exist (there are 1)");
   EXPECT_EQ(with("v 1 2 # 3"), "a.obj: line 1: a vertex has three coordinates");
   EXPECT_EQ(with("f 1 2 x"), "a.obj: line 1: 'x' is not a corner of a face");
   EXPECT_EQ(with("f 1.5 2 3"), "a.obj: line 1: '1.5' is not a corner of a face");
@@ -834,6 +836,14 @@ TEST_F(ReadMesh, PlyWithLinesThatEndInCrAlone_IsRead) {
           read("b.ply", replaced(ply.substr(0, body), "\n", "\r") + ply.substr(body));
       EXPECT_THAT(result.vertices_m, ::testing::UnorderedElementsAreArray(mesh.vertices));
     }
+}
+
+TEST_F(ReadMesh, Gltf1_IsNamed) {
+  const std::string json =
+      R"({"asset":{"version":"1.0"},"accessors":{"a":{}},"meshes":{"m":{"primitives":[]}}})";
+  EXPECT_EQ(error("a.gltf", json, ""), "a.gltf: is glTF 1.0: export the mesh as glTF 2.0");
+  EXPECT_EQ(error("a.glb", glbFile(json, ""), ""),
+            "a.glb: is glTF 1.0: export the mesh as glTF 2.0");
 }
 
 TEST_F(ReadMesh, Utf16WithoutMark_IsNamed) {
