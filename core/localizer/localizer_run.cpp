@@ -104,8 +104,6 @@ StepReport Localizer::finish(LocalizationStatus status, StepReport report) {
     status = LocalizationStatus::kFault;
     pass_.workspace().fault = Status::kMemoryChanged;
   }
-  // A capacity that one hypothesis exceeded is not why the run ended.
-  if (status != LocalizationStatus::kFault) pass_.workspace().fault = Status::kOk;
   pass_.finish(status, attempt_.camera_from_station(), covariance_);
   phase_ = Phase::kEnded;
   report.finished = true;

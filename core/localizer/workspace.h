@@ -136,7 +136,9 @@ struct Workspace {
   EdgeWidth edge_width;  ///< along the edges of the final pose; empty without a search
   FocalFit focal;        ///< estimated at the final pose; not determined without a search
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< state of the run
-  Status fault = Status::kOk;                                ///< with kFault: the reason
+  /// With kFault: the reason. Else a capacity that the renders of poses exceeded, which were left
+  /// out of the comparison.
+  Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged
   /// Covariance of camera_from_station, over (rotation rad, translation m), left perturbation.
   Matrix6d covariance = Matrix6d::Zero();

@@ -149,6 +149,7 @@ void requireSensibleSeed(const Camera& camera, const SceneMesh& scene,
 }
 
 void requireAccepted(const LocalizationTrace& trace, const InputPlaces& places) {
+  if (trace.status != LocalizationStatus::kFault) return;
   const std::string reason = statusText(trace.fault);
   switch (trace.fault) {
     case Status::kInvalidMesh:

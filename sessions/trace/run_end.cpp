@@ -129,6 +129,29 @@ std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& 
       trace.lastOptions().pnp.min_inliers);
 }
 
+/// Whether what a render needs has exceeded a capacity.
+bool isCapacity(Status fault) {
+  return fault == Status::kCapacityExceeded || fault == Status::kTooManyLayers;
+}
+
+/// What a render exceeds, and what to do.
+std::string capacityText(const LocalizationTrace& trace) {
+  if (trace.fault == Status::kTooManyLayers)
+    return formatText(
+        "more than %d faces of the mesh overlap in an image row: use a coarser mesh, or its outer "
+        "surfaces only",
+        static_cast<int>(BandPainter::kMostLayers));
+  return formatText(
+      "the render has more than %d edge pixels: raise render.max_edge_pixels, or check the mesh",
+      trace.lastOptions().render.max_edge_pixels);
+}
+
+/// Of a run that a capacity did not end: the poses that it could not compare.
+std::string leftOutText(const LocalizationTrace& trace) {
+  if (trace.status == LocalizationStatus::kFault || !isCapacity(trace.fault)) return "";
+  return " Poses were left out of the comparison: " + capacityText(trace) + ".";
+}
+
 std::string faultText(const LocalizationTrace& trace) {
   const LocalizerOptions& options = trace.lastOptions();
   if (trace.fault == Status::kInvalidOption &&
@@ -136,16 +159,7 @@ std::string faultText(const LocalizationTrace& trace) {
     return "loop.correction_point is end_effector, but no end effector is known: state "
            "camera_from_end_effector of the case, or choose another point";
   const std::string text = std::string("the run stopped: ") + statusText(trace.fault);
-  if (trace.fault == Status::kCapacityExceeded)
-    return text + formatText(
-                      "; the render has more than %d edge pixels: raise render.max_edge_pixels, or "
-                      "check the mesh",
-                      options.render.max_edge_pixels);
-  if (trace.fault == Status::kTooManyLayers)
-    return text + formatText(
-                      "; more than %d faces of the mesh overlap in an image row: use a coarser "
-                      "mesh, or its outer surfaces only",
-                      static_cast<int>(BandPainter::kMostLayers));
+  if (isCapacity(trace.fault)) return text + "; " + capacityText(trace);
   if (trace.fault == Status::kMemoryChanged)
     return text +
            "; a bit of the inputs or of tables derived from them flipped in memory: run again";
@@ -299,7 +313,8 @@ std::string convergedText(const LocalizationTrace& trace) {
       kMillimetres * sigma(3), kMillimetres * sigma(4), kMillimetres * sigma(5),
       kMilliradians * sigma(0), kMilliradians * sigma(1), kMilliradians * sigma(2));
   const std::string least_known = leastKnownText(trace.covariance, trace.camera_from_station);
-  return least_known.empty() ? text : text + " Least known: " + least_known + ".";
+  if (!least_known.empty()) text += " Least known: " + least_known + ".";
+  return text + leftOutText(trace);
 }
 
 /// With the probability of a pose that was rejected for another reason.
@@ -307,7 +322,7 @@ std::string failedText(const LocalizationTrace& trace) {
   std::string text = "Did not converge. " + asSentence(explanation(trace));
   if (hasProbability(trace) && trace.status != kNotSupported)
     text += " " + asSentence(probabilityText(trace));
-  return text;
+  return text + leftOutText(trace);
 }
 
 /// Labels an onboard run.

@@ -90,12 +90,14 @@ double blotch(double x, double y, double spacing_px, std::uint32_t salt) {
   return top * (1 - fy) + bottom * fy;
 }
 
-double background(double x, double y) {
+double grayOf(Background background, double x, double y) {
+  if (background == Background::kPlain) return 40.0;
   return 35.0 + 70.0 * blotch(x, y, 37.0, 1) + 45.0 * blotch(x, y, 11.0, 2);
 }
 
 /// Mean gray of each pixel over its rays.
-std::vector<double> expose(const Solid& solid, const Camera& finer, const Surfaces& surfaces) {
+std::vector<double> expose(const Solid& solid, const Camera& finer, const Surfaces& surfaces,
+                           Background background = Background::kBlotchy) {
   const int width = finer.width / kSubpixels;
   const int height = finer.height / kSubpixels;
   const Eigen::Vector3d lamp = Eigen::Vector3d(-0.45, -0.6, -0.66).normalized();
@@ -105,7 +107,7 @@ std::vector<double> expose(const Solid& solid, const Camera& finer, const Surfac
       const auto i = static_cast<std::size_t>(y * finer.width + x);
       double value = 0.0;
       if (surfaces.face[i] < 0) {
-        value = background((x + 0.5) / kSubpixels, (y + 0.5) / kSubpixels);
+        value = grayOf(background, (x + 0.5) / kSubpixels, (y + 0.5) / kSubpixels);
       } else {
         const double cosine = std::max(0.0, surfaces.normal[i].cast<double>().dot(lamp));
         const double lit = 0.35 * surfaces.intensity[i] + 150.0 * cosine;
@@ -253,11 +255,12 @@ Pose tiltedPose(const Eigen::Vector3d& tilt_rad, const Eigen::Vector3d& translat
 
 Pose truthPose() { return tiltedPose({0.42, -0.28, 0.15}, {0.004, -0.003, 0.45}); }
 
-Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station) {
+Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station,
+                    Background background) {
   const Camera finer = finerCamera(camera);
   Surfaces surfaces(static_cast<std::size_t>(finer.width * finer.height));
   render(solid, finer, camera_from_station, &surfaces);
-  return develop(expose(solid, finer, surfaces), camera.width, camera.height);
+  return develop(expose(solid, finer, surfaces, background), camera.width, camera.height);
 }
 
 namespace {

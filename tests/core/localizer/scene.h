@@ -62,9 +62,12 @@ struct Picture {
   ImageView view() const { return {gray.data(), width, height, width}; }
 };
 
-/// The camera's picture: nine rays a pixel, shaded by a lamp at the side, in front of a blotchy
-/// background, blurred 3 x 3, with a little noise.
-Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station);
+enum class Background { kBlotchy, kPlain };
+
+/// The camera's picture: nine rays a pixel, shaded by a lamp at the side, in front of a background,
+/// blurred 3 x 3, with a little noise.
+Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station,
+                    Background background = Background::kBlotchy);
 /// The same by casting each ray on its own, from its own origin: independent of the renderer.
 Picture takePictureByRays(const Solid& solid, const Camera& camera,
                           const Pose& camera_from_station);

@@ -75,6 +75,8 @@ TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
   trace = endedWith(LocalizationStatus::kFault);
   trace.fault = Status::kCapacityExceeded;
   EXPECT_THAT(explanation(trace), HasSubstr("render.max_edge_pixels"));
+  trace.fault = Status::kTooManyLayers;
+  EXPECT_THAT(explanation(trace), HasSubstr("overlap in an image row"));
   LocalizationTrace without_templates = endedWith(LocalizationStatus::kTooFewMatches);
   editIteration(without_templates, 0, [](IterationTrace& last) { last.template_count = 0; });
   expectContained(explanation(without_templates), {"too few matches", "4, needed 6"});
@@ -190,6 +192,17 @@ TEST(RunStatusText, SaysHowFarARunIsAndHowItEnded) {
                                          "Edge support is 100.0 %"});
   trace.options.support.gate = false;
   EXPECT_THAT(runStatusText(trace), Not(HasSubstr("Edge support")));
+}
+
+TEST(RunStatusText, PosesWhoseRendersExceedACapacity_AreSaidToBeLeftOut) {
+  for (const LocalizationStatus status :
+       {LocalizationStatus::kConverged, LocalizationStatus::kLeftUncertainty}) {
+    LocalizationTrace trace = endedWith(status);
+    trace.finished = true;
+    EXPECT_THAT(runStatusText(trace), Not(HasSubstr("left out")));
+    trace.fault = Status::kCapacityExceeded;
+    expectContained(runStatusText(trace), {"Poses were left out", "raise render.max_edge_pixels"});
+  }
 }
 
 TEST(RunStatusText, NamesTheOtherViews) {
