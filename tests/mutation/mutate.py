@@ -49,7 +49,7 @@ TESTS = {
     "sessions/decision": ["decision_test", "queue_test", WITHOUT_FILES],
     "sessions/evaluation": ["evaluation_test"],
     "sessions/record": ["onboard_record_test"],
-    "sessions/review": ["queue_test", WITHOUT_FILES, WITH_FILES],
+    "sessions/review": ["queue_test", WITHOUT_FILES, "session_test SessionOfResults.*", WITH_FILES],
     "sessions/session": ["session_test", "queue_test"],
 }
 CHECKS = "#define _GLIBCXX_ASSERTIONS 1\n"

@@ -406,6 +406,22 @@ TEST(ReplayRecord, TemplateOutsideTheRender_HasNoPoint) {
                                        "points are unknown."));
 }
 
+/// The first edge pixel of a render in raster order is one like the others.
+TEST(ReplayRecord, TemplateOnTheFirstEdgePixel_HasItsPoint) {
+  OnboardRecord record = beginningOfRecord(1);
+  RecordedTemplate& first = record.iterations[0].templates->front();
+  const BitImage edges = replayed().iterations[0]->render.edges.view();
+  for (int i = 0; i < edges.width * edges.height; ++i) {
+    first.x = i % edges.width;
+    first.y = i / edges.width;
+    if (edges.get(first.x, first.y)) break;
+  }
+  const LocalizationTrace replay = replayRecord(record, exampleRun().problem);
+  EXPECT_TRUE(replay.iterations[0]->templates[0].point_in_station_m.allFinite());
+  EXPECT_EQ(replay.iterations[0]->templates[0].depth_m,
+            replay.iterations[0]->render.pixels.front().depth_m);
+}
+
 TEST(ReplayRecord, OtherMaskOrCamera_IsReported) {
   const auto remarks = [](void (*make)(OnboardRecord&)) {
     OnboardRecord record = beginningOfRecord(1);

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "sessions/io/files/errors.h"
+#include "sessions/text/text_table.h"
 #include "tests/sessions/session/example_session.h"
 #include "tests/support/matchers.h"
 
@@ -25,8 +29,19 @@ TEST(JudgeFiles, GoodFiles_SayWhatTheyAre) {
   EXPECT_EQ(image.image->width, 1024);
   EXPECT_THAT(judgedOf(judged, InputKind::kCamera).text,
               AllOf(HasSubstr("1024 x 1024 px, "), HasSubstr(" deg")));
-  EXPECT_THAT(judgedOf(judged, InputKind::kMesh).text, HasSubstr(" faces"));
-  EXPECT_THAT(judgedOf(judged, InputKind::kSeed).text, HasSubstr("station 0."));
+  const auto loaded = loadCase(makeCase(exampleFiles()).made);
+  const Camera& camera = loaded->source.camera;
+  const auto deg = [](double size_px, double focal_px) {
+    return fixedText(2.0 * std::atan2(size_px / 2.0, focal_px) * 180.0 / std::numbers::pi, 1);
+  };
+  EXPECT_EQ(judgedOf(judged, InputKind::kCamera).text,
+            "1024 x 1024 px, " + deg(1024.0, camera.fx) + " x " + deg(1024.0, camera.fy) + " deg");
+  EXPECT_EQ(judgedOf(judged, InputKind::kMesh).text,
+            std::to_string(loaded->scene.faces.size()) + " faces");
+  EXPECT_EQ(judgedOf(judged, InputKind::kSeed).text,
+            "station " +
+                fixedText(loaded->source.camera_from_station_seed.translation_m.norm(), 2) +
+                " m away");
 }
 
 TEST(JudgeFiles, BadFile_HasItsOwnProblemAndSparesTheOthers) {

@@ -189,6 +189,67 @@ TEST(ReadImage, TakesAGivenTable) {
             "t.png: table: has 3 entries, but 2 bits need 4");
 }
 
+/// Text of a flag; "" without it.
+std::string textOf(const std::vector<RedFlag>& flags, const std::string& code) {
+  for (const RedFlag& flag : flags)
+    if (flag.code == code) return flag.text;
+  return "";
+}
+
+/// A box of 40 cm that fills half of the image's width, with a share of its pixels saturated, and
+/// gray levels from 100 to 100 + range.
+std::vector<RedFlag> flagsOfGrays(double saturated_share, int range) {
+  LoadedCase loaded;
+  loaded.source = loadedOs().source;
+  loaded.source.camera = makePinhole(200, 200, 200.0);
+  loaded.scene = boxMesh({0.2, 0.2, 0.2});
+  loaded.source.camera_from_station_seed = Pose();
+  loaded.source.camera_from_station_seed.translation_m.z() = 1.0;
+  loaded.image.width = loaded.image.height = 200;
+  for (int i = 0; i < 200 * 200; ++i) {
+    const int gray = 100 + i % (range + 1);
+    loaded.image.pixels.push_back(
+        static_cast<std::uint8_t>((i * 37) % 1000 < 1000.0 * saturated_share ? 255 : gray));
+  }
+  return inputSheet(loaded).flags;
+}
+
+TEST(InputSheet, QualityAtTheSeed_IsFlaggedWithItsFigures) {
+  const auto overexposed = [](double share) {
+    return textOf(flagsOfGrays(share, 60), "image_overexposed");
+  };
+  EXPECT_EQ(overexposed(0.70), "");
+  EXPECT_THAT(overexposed(0.90),
+              AllOf(HasSubstr("position of the station 90 % of the pixels are saturated: ")));
+  const auto flat = [](int range) { return textOf(flagsOfGrays(0.0, range), "image_flat"); };
+  EXPECT_EQ(flat(14), "");
+  EXPECT_THAT(flat(6), HasSubstr("pixels span 6 gray levels: "));
+}
+
+TEST(InputSheet, SmallOrFarStation_IsFlaggedWithItsSize) {
+  LoadedCase loaded;
+  loaded.source = loadedOs().source;
+  loaded.source.camera = makePinhole(1000, 1000, 1000.0);
+  loaded.image.width = loaded.image.height = 1000;
+  loaded.image.pixels.assign(1000 * 1000, 90);
+  loaded.scene = boxMesh({0.1, 0.1, 0.1});  // 0.3464 m from corner to corner
+  const auto small = [&loaded](double distance_m) {
+    loaded.source.camera_from_station_seed = Pose();
+    loaded.source.camera_from_station_seed.translation_m.z() = distance_m;
+    return textOf(inputSheet(loaded).flags, "station_small");
+  };
+  EXPECT_EQ(small(14.4), "");
+  EXPECT_THAT(small(14.5), StartsWith("the station would be only 23.9 px large"));
+  loaded.source.camera_from_station_seed.translation_m.z() = 2.5;
+  loaded.scene = boxMesh({0.1, 0.2, 0.15});
+  const InputSheet sheet = inputSheet(loaded);
+  EXPECT_EQ(lineOf(sheet, "station"),
+            "200.0 x 400.0 x 300.0 mm; the view is 2500.0 mm wide at its distance");
+  EXPECT_EQ(lineOf(sheet, "seed"), "2.5000 m from the camera to the station's middle");
+  EXPECT_EQ(lineOf(sheet, "field of view"), "53.08 x 53.08 deg");
+  EXPECT_EQ(lineOf(sheet, "gray"), "90 .. 90, 0.00 % saturated");
+}
+
 /// 1000 pixels: `high` of them in one gray level, the others in another one.
 GrayImage twoGrays(std::uint8_t low, std::uint8_t high, std::size_t high_count) {
   GrayImage image;
@@ -343,6 +404,28 @@ TEST(InputSheet, Lines_DescribeEachInput) {
   EXPECT_EQ(lineOf(unseeded, "seed"), "none");
   EXPECT_THAT(lineOf(unseeded, "station"), Not(HasSubstr("the view is")));
   EXPECT_THAT(codes(unseeded.flags), ElementsAre("image_saturated"));
+}
+
+/// Of an ignored quarter of the image, and a truth that is another file's.
+TEST(InputSheet, IgnoredPixelsAndPart_HaveTheirLines) {
+  SessionCase item = loadedOs().source;
+  const double side = item.camera.width;
+  MaskStroke quarter;
+  quarter.kind = StrokeKind::kPolygon;
+  quarter.points = {{-1.0, -1.0},
+                    {0.5 * side - 0.5, -1.0},
+                    {0.5 * side - 0.5, 0.5 * side - 0.5},
+                    {-1.0, 0.5 * side - 0.5}};
+  item.ignore_strokes = {quarter};
+  const InputSheet sheet = inputSheet(*reloadCase(loadedOs(), item));
+  EXPECT_EQ(lineOf(sheet, "ignored"), std::to_string(item.camera.width * item.camera.width / 4) +
+                                          " px, 25.00 % of the image");
+  EXPECT_NE(lineOf(sheet, "part"), "");
+  const BoundingBox bounds = matchedBounds(loadedOs().scene.view());
+  EXPECT_NEAR(std::stod(lineOf(sheet, "seed")),
+              (item.camera_from_station_seed * bounds.centre()).norm(), 0.5001e-4);
+  EXPECT_NEAR(std::stod(lineOf(sheet, "mesh").substr(lineOf(sheet, "mesh").find("in m, ") + 6)),
+              1e3 * loadedOs().scene.infos[0].diagonal_m(), 0.051);
 }
 
 TEST(InputSheet, LabelLines_SayWhatTheLabelStates) {
