@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/batch_output.h"
 
+#include <semaphore.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -10,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/unfinished_file.h"
 #include "sessions/io/json/json_writer.h"
 
 namespace boresight::app {
@@ -19,6 +22,30 @@ volatile std::sig_atomic_t first_signal = 0;
 
 void onSignal(int signal) {
   if (first_signal == 0) first_signal = signal;
+}
+
+volatile std::sig_atomic_t end_signal = 0;
+sem_t end_requests;
+
+void onEndSignal(int signal) {
+  const int error = errno;
+  end_signal = signal;
+  sem_post(&end_requests);
+  errno = error;
+}
+
+void handleSignal(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+bool isIgnoredSignal(int signal) {
+  struct sigaction action {};
+  sigaction(signal, nullptr, &action);
+  return action.sa_handler == SIG_IGN;
 }
 
 /// Quoted for a shell.
@@ -32,13 +59,9 @@ std::string inQuotes(const std::string& word) {
 
 InterruptWatch::InterruptWatch(const std::stop_source& source) {
   first_signal = 0;
-  struct sigaction action {};
-  action.sa_handler = onSignal;
-  action.sa_flags = SA_RESTART;
-  sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);
-    if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+    if (before_[i].sa_handler != SIG_IGN) handleSignal(kSignals[i], onSignal);
   }
   thread_ = std::jthread([source](const std::stop_token& ended) {
     while (!ended.stop_requested()) {
@@ -50,6 +73,25 @@ InterruptWatch::InterruptWatch(const std::stop_source& source) {
 
 InterruptWatch::~InterruptWatch() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+}
+
+SignalEnd::SignalEnd() {
+  sem_init(&end_requests, 0, 0);
+  thread_ = std::jthread([](const std::stop_token& stop) {
+    while (sem_wait(&end_requests) != 0) {
+    }
+    if (stop.stop_requested()) return;
+    sessions::removeUnfinishedFiles();
+    handleSignal(end_signal, SIG_DFL);
+    kill(getpid(), end_signal);
+  });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (!isIgnoredSignal(signal)) handleSignal(signal, onEndSignal);
+}
+
+SignalEnd::~SignalEnd() {
+  thread_.request_stop();
+  sem_post(&end_requests);
 }
 
 int InterruptWatch::signal() const { return first_signal; }

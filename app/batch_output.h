@@ -34,6 +34,20 @@ class InterruptWatch {
   std::jthread thread_;
 };
 
+/// Ends the program by SIGINT, SIGTERM or SIGHUP as without a handler, but without a temporary file
+/// that it has not finished. While an InterruptWatch lives, that receives the signal. A signal that
+/// was ignored before stays ignored. One in a process.
+class SignalEnd {
+ public:
+  SignalEnd();
+  ~SignalEnd();
+  SignalEnd(const SignalEnd&) = delete;
+  SignalEnd& operator=(const SignalEnd&) = delete;
+
+ private:
+  std::jthread thread_;
+};
+
 /// After an interrupt of a command that continues its results.
 inline constexpr const char* kInterruptedNote =
     "interrupted; run the same command again to continue";

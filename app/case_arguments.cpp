@@ -131,6 +131,7 @@ ReadCase readCase(const CaseArguments& arguments) {
   ReadCase read{sessions::loadCase(new_case.made), std::move(new_case.notes)};
   for (std::string& warning : sessions::labelWarnings(read.loaded->source))
     read.notes.push_back(std::move(warning));
+  for (std::string& text : sessions::fileNotes(*read.loaded)) read.notes.push_back(std::move(text));
   return read;
 }
 

@@ -110,10 +110,10 @@ int decide(const DecideArguments& arguments) {
     note(arguments.case_id + ": " + error.what());
     return kNotConverged;
   }
-  document.save();
+  document.save();  // also after a signal: the decision is complete
   print(arguments.case_id + ": " +
         reviewStatusText(reviewStatusOf(document.session(), arguments.case_id)));
-  return kDone;
+  return watch.exitCode(kDone);
 }
 
 }  // namespace

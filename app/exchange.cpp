@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include "app/batch_output.h"
 #include "app/commands.h"
 #include "sessions/exchange/annotation_exchange.h"
 #include "sessions/io/files/atomic_file.h"
@@ -133,10 +134,12 @@ int importInto(const ImportArguments& arguments) {
   } else {
     report = sessions::importBop(session, arguments.bop, arguments.replace);
   }
+  std::stop_source stop;
+  const InterruptWatch watch(stop);  // an import that is begun is saved
   document.apply(report.session, text);
   document.save();
   tell(report.case_ids, report.notes);
-  return kDone;
+  return watch.exitCode(kDone);
 }
 
 }  // namespace

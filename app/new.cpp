@@ -52,10 +52,11 @@ struct NewArguments : CaseArguments {
   }
 };
 
-/// Refuses inputs that an edit of the session cannot correct: an image of another size than the
-/// camera's, a camera that folds. A seed can be moved later.
+/// Notes on the files; refuses inputs that an edit of the session cannot correct: an image of
+/// another size than the camera's, a camera that folds. A seed can be moved later.
 void requireUsable(const sessions::SessionCase& session_case) {
   const auto loaded = sessions::loadCase(session_case);
+  for (const std::string& text : sessions::fileNotes(*loaded)) note(text);
   sessions::requireSameSize(loaded->image, session_case.camera);
   sessions::requireField("case " + session_case.id, "camera", session_case.camera);
   if (!session_case.has_seed) {

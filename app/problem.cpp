@@ -5,6 +5,7 @@
 #include "core/record/problem_bytes.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/images/labels/image_label.h"
+#include "sessions/session/input_sheet.h"
 
 namespace boresight::app {
 namespace {
@@ -34,7 +35,9 @@ struct ProblemArguments : CaseArguments {
 ReadCase readCaseOfDataset(const ProblemArguments& arguments) {
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
   const sessions::Session session = sessions::makeSession(dataset, {arguments.case_id});
-  return {sessions::loadCase(*session.cases.front()), dataset.notes};
+  ReadCase read{sessions::loadCase(*session.cases.front()), dataset.notes};
+  for (std::string& text : sessions::fileNotes(*read.loaded)) read.notes.push_back(std::move(text));
+  return read;
 }
 
 void requireFilesNamed(const ProblemArguments& arguments) {

@@ -7,6 +7,7 @@
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/io/images/image_file.h"
 #include "sessions/run/problem.h"
+#include "sessions/session/input_sheet.h"
 #include "sessions/trace/scene_render.h"
 
 namespace boresight::app {
@@ -37,6 +38,7 @@ int render(const RenderArguments& arguments) {
   part.mesh_unit = arguments.mesh_unit;
   const sessions::SceneMesh scene = sessions::readScene({&part, 1});
   sessions::requireWritable(arguments.out);
+  for (const std::string& text : sessions::fileNotes(scene)) note(text);
   sessions::requireSensibleSeed(camera, scene, pose.camera_from_station, arguments.pose,
                                 "camera_from_station");
   sessions::RenderTrace render_trace;

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "app/batch_output.h"
 #include "app/commands.h"
 #include "app/plain_output.h"
 #include "sessions/io/files/errors.h"
@@ -147,6 +148,7 @@ int main(int argc, char** argv) {
   using namespace boresight::app;
   const PlainOutput plain_output(std::cout);
   const PlainOutput plain_errors(std::cerr, PlainOutput::Lines::kMessages);
+  const SignalEnd signal_end;
   const int exit_code = runGuarded(argc, argv);
   endLog("whs", exit_code);
   constexpr int kBySignal = 128;  // exit codes above: also of a reader that closed the pipe

@@ -121,8 +121,7 @@ std::string unconfirmedSigmasText(int degrees_of_freedom) {
   constexpr int kLeast = 6;
   if (degrees_of_freedom >= kLeast) return "";
   return "The annotations have " + countText(degrees_of_freedom, "degree") +
-         " of freedom, which cannot confirm their sigmas: annotate more points (6 that agree "
-         "suffice).";
+         " of freedom, which cannot confirm their sigmas: annotate more points.";
 }
 
 PoseQuality runQuality(const Session& session, const std::shared_ptr<const LoadedCase>& loaded,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <Eigen/Geometry>
 
@@ -303,13 +304,27 @@ InputSheet inputSheet(const LoadedCase& loaded) {
                             sizeText(session_case.camera.width, session_case.camera.height) +
                             " px, but the image has " + sizeText(image.width, image.height)});
   sheet.flags.insert(sheet.flags.end(), camera.flags.begin(), camera.flags.end());
-  for (const MeshInfo& info : loaded.scene.infos)
-    for (const std::string& note : info.notes())
-      sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
+  for (const std::string& note : fileNotes(loaded.scene)) sheet.flags.push_back({"mesh", note});
   if (session_case.has_seed) flagSeed(session_case, loaded.scene, sheet);
   if (image.label) flagLabel(session_case, *image.label, sheet.flags);
   flagTruth(session_case, sheet);
   return sheet;
+}
+
+std::vector<std::string> fileNotes(const LoadedCase& loaded) {
+  std::vector<std::string> all;
+  const std::string image = loaded.source.image.source.file.filename().string();
+  for (const std::string& note : loaded.image.notes) all.push_back(image + ": " + note);
+  std::ranges::move(fileNotes(loaded.scene), std::back_inserter(all));
+  return all;
+}
+
+std::vector<std::string> fileNotes(const SceneMesh& scene) {
+  std::vector<std::string> all;
+  for (const MeshInfo& info : scene.infos)
+    for (const std::string& note : info.notes())
+      all.push_back(info.file.filename().string() + ": " + note);
+  return all;
 }
 
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m) {

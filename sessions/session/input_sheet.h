@@ -69,6 +69,12 @@ struct InputSheet {
 /// Works also for inputs that cannot be run: sizes that do not fit are a flag, not an error.
 InputSheet inputSheet(const LoadedCase& loaded);
 
+/// Notes on how the files of a case were read, each behind the file's name: "model.obj: 3 lines and
+/// points were left out".
+std::vector<std::string> fileNotes(const LoadedCase& loaded);
+/// Those of the meshes alone.
+std::vector<std::string> fileNotes(const SceneMesh& scene);
+
 /// Whether the point is inside the surface, by its winding number: holes have little effect.
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m);
 

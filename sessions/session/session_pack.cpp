@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/files/unfinished_file.h"
 #include "sessions/io/images/labels/label_files.h"
 #include "sessions/io/meshes/mesh_file.h"
 #include "sessions/record/onboard_record.h"
@@ -57,6 +59,7 @@ class ZipWriter {
   explicit ZipWriter(const fs::path& archive) : archive_(archive) {
     requireWritable(archive_);
     temporary_ = archive_.parent_path() / (".boresight-" + std::to_string(::getpid()) + ".zip.tmp");
+    unfinished_.emplace(temporary_);
     zip_ = zipOpen64(temporary_.c_str(), APPEND_STATUS_CREATE);
     if (zip_ == nullptr) throw OutputError(archive_, "the archive cannot be begun");
   }
@@ -114,6 +117,7 @@ class ZipWriter {
 
   fs::path archive_;
   fs::path temporary_;
+  std::optional<UnfinishedFile> unfinished_;
   void* zip_ = nullptr;
   std::set<std::string> names_;
 };

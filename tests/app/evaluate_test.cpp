@@ -246,6 +246,22 @@ TEST_F(WhsTables, MakesTablesAndFigures) {
               HasSubstr("t.csv: it is no folder"));
 }
 
+TEST_F(WhsTables, Signal_KeepsTheTablesAndTheSheetsThatAreDrawn) {
+  runWhs(with({"evaluate", "--dataset", exampleDataset(), "--station", "os", "--reseed", "30",
+               "--out", file("many.sqlite")},
+              kQuick),
+         0);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove(file("t.txt"));
+    const EndedWhs ended = endWhsWhen(
+        {"tables", file("many.sqlite"), "--out", file("t.txt"), "--failures", file("sheets")},
+        signal, [this] { return std::filesystem::exists(file("t.txt")) ? 1 : 0; }, 1);
+    ASSERT_TRUE(WIFEXITED(ended.status)) << signal;
+    EXPECT_EQ(WEXITSTATUS(ended.status), 128 + signal);
+    EXPECT_THAT(folder_.read("t.txt"), HasSubstr("Errors per station"));
+  }
+}
+
 TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
   EXPECT_THAT(tables({"--against", file("bad.sqlite")}, 6),
               HasSubstr("2 runs in both: 0 better, 2 worse"));

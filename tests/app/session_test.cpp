@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <iterator>
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
@@ -109,6 +110,126 @@ TEST(WhsRun, SignalKeepsAndSavesTheRunsThatEnded) {
     EXPECT_GE(ended.held, 2);
     EXPECT_LT(saved.runs.size(), session.cases.size());
   }
+}
+
+/// A session of copies of a case that differ by their seeds, or are run once for all.
+Session copiesOf(const std::string& file, int count, double step_m) {
+  Session session = sessions::readSessionFile(file).session;
+  const sessions::SessionCase one = *session.cases[0];
+  const auto runs = session.runs;
+  session.runs.clear();
+  session.cases.clear();
+  for (int i = 0; i < count; ++i) {
+    sessions::SessionCase copy = one;
+    copy.id = "copy" + std::to_string(i);
+    copy.camera_from_station_seed.translation_m.x() += step_m * i;
+    session.cases.push_back(std::move(copy));
+    for (sessions::RunRecord run : runs) {
+      run.case_id = "copy" + std::to_string(i);
+      session.runs.push_back(std::move(run));
+    }
+  }
+  return session;
+}
+
+TEST(WhsRun, ErrorOfTheWhole_KeepsAndSavesTheRunsBefore) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder);
+  const Session session = copiesOf(file, 2, 1e-6);
+  sessions::writeSessionFile(file, session);
+  runWhs({"run", file}, 0);
+  const Session ran = sessions::readSessionFile(file).session;
+  ASSERT_EQ(ran.runs.size(), 2u);
+  // The same again, where the second trace cannot be written.
+  sessions::writeSessionFile(file, session);
+  std::filesystem::remove(ran.runs[1].file);
+  std::filesystem::create_directory(ran.runs[1].file);
+  EXPECT_THAT(runWhs({"run", file}, 3).err,
+              AllOf(HasSubstr("the runs that ended before are saved"), HasSubstr("cannot write")));
+  const Session saved = sessions::readSessionFile(file).session;
+  ASSERT_EQ(saved.runs.size(), 1u);
+  EXPECT_EQ(saved.runs[0].digest, ran.runs[0].digest);
+  EXPECT_FALSE(std::filesystem::exists(sessions::journalFileOf(file)));
+  std::filesystem::remove(ran.runs[1].file);
+  runWhs({"run", file}, 0);  // needs no recovery
+}
+
+/// The number of cases whose inputs a whs has read, by its log in this folder.
+int casesRead(const TemporaryFolder& folder) {
+  const std::string log = folder.read("state/boresight/boresight.log");
+  int count = 0;
+  for (std::size_t at = 0; (at = log.find(": inputs SHA-256 ", at)) != std::string::npos; ++at)
+    ++count;
+  return count;
+}
+
+/// Commands that check a run, and get a signal in their convergence tests.
+class SignalledCheck : public testing::TestWithParam<int> {
+ protected:
+  SignalledCheck() {
+    runWhs({"run", file_}, 0);
+    sessions::writeSessionFile(file_, copiesOf(file_, 3, 0.0));
+    before_ = folder_.read("s.boresight.json");
+    ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+  }
+  ~SignalledCheck() override { ::setenv("XDG_STATE_HOME", "/dev/null", 1); }
+
+  void expectEnded(const EndedWhs& ended) const {
+    ASSERT_TRUE(WIFEXITED(ended.status)) << "it has the signal's default action";
+    EXPECT_EQ(WEXITSTATUS(ended.status), 128 + GetParam());
+    EXPECT_EQ(folder_.read("s.boresight.json"), before_);
+    EXPECT_FALSE(std::filesystem::exists(sessions::journalFileOf(file_)));
+    EXPECT_FALSE(std::filesystem::exists(sessions::lockFileOf(file_)));
+  }
+
+  const TemporaryFolder folder_;
+  const std::string file_ = newSession(folder_);
+  std::string before_;
+};
+
+TEST_P(SignalledCheck, Check_KeepsTheCasesThatAreChecked) {
+  const std::string json = folder_ / "checks.json";
+  expectEnded(endWhsWhen(
+      {"check", file_, "--json", json, "--convergence-test", "100"}, GetParam(),
+      [this] { return casesRead(folder_); }, 1));
+  EXPECT_EQ(jsonOf(json)["cases"].size(), 0u) << "the first was not complete";
+  expectEnded(endWhsWhen(
+      {"check", file_, "--json", json, "--convergence-test", "3"}, GetParam(),
+      [this] { return casesRead(folder_); }, 3));
+  EXPECT_EQ(jsonOf(json)["cases"].size(), 1u);
+}
+
+TEST_P(SignalledCheck, Decide_DecidesNothing) {
+  expectEnded(endWhsWhen(
+      {"decide", file_, "--case", "copy0", "--validate", "--by", "Ada", "--comment", "right",
+       "--convergence-test", "100"},
+      GetParam(), [this] { return casesRead(folder_); }, 1));
+}
+
+/// A command that keeps nothing of what it has not finished ends at once, with the signal itself.
+TEST_P(SignalledCheck, Verify_EndsByTheSignal) {
+  runWhs({"export", file_, "--case", "copy0", "--pose", folder_ / "pose.json"}, 0);
+  const int before = casesRead(folder_);
+  const EndedWhs ended = endWhsWhen(
+      {"verify", folder_ / "pose.json"}, GetParam(), [this] { return casesRead(folder_); },
+      before + 1);
+  ASSERT_TRUE(WIFSIGNALED(ended.status));
+  EXPECT_EQ(WTERMSIG(ended.status), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalledCheck, testing::Values(SIGINT, SIGTERM));
+
+TEST(WhsPack, SignalLeavesNoTemporaryFile) {
+  const TemporaryFolder folder;
+  const std::string file = newSession(folder, true);
+  const std::filesystem::path archive = folder / "out/s.zip";
+  std::filesystem::create_directory(archive.parent_path());
+  const auto files = [&archive] {
+    const std::filesystem::directory_iterator all(archive.parent_path());
+    return static_cast<int>(std::distance(begin(all), end(all)));
+  };
+  const EndedWhs ended = endWhsWhen({"pack", file, "--out", archive.string()}, SIGTERM, files, 1);
+  EXPECT_EQ(ended.held, std::filesystem::exists(archive) ? 1 : 0) << "the archive, or nothing";
 }
 
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {

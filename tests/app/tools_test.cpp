@@ -114,6 +114,39 @@ TEST(WhsRender, DrawsWhatTheCoreRenders) {
   for (const EdgePixel& pixel : render.pixels) ASSERT_EQ(drawn.view().at(pixel.x, pixel.y), 255);
 }
 
+/// The example's mesh as OBJ, with a line that is not read.
+std::string objWithACurve() {
+  const sessions::SceneMesh& scene = osExample().scene;
+  std::string text = "curv 0 1 1 2\n";
+  for (const Eigen::Vector3f& vertex : scene.vertices_in_station_m)
+    text += "v " + std::to_string(vertex.x()) + " " + std::to_string(vertex.y()) + " " +
+            std::to_string(vertex.z()) + "\n";
+  for (const Face& face : scene.faces)
+    text += "f " + std::to_string(face.vertex[0] + 1) + " " + std::to_string(face.vertex[1] + 1) +
+            " " + std::to_string(face.vertex[2] + 1) + "\n";
+  return text;
+}
+
+TEST(WhsNotes, OnHowFilesWereRead_ArePrintedByRenderLocalizeAndNew) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("model.obj", objWithACurve()).string();
+  const auto said =
+      HasSubstr("whs: model.obj: 1 line of curves, surfaces or other files: not read");
+  EXPECT_THAT(runWhs({"render", "--camera", kExample / "camera.json", "--mesh", mesh, "--mesh-unit",
+                      "m", "--pose", kExample / "truth.json", "--out", folder / "e.png"},
+                     0)
+                  .err,
+              said);
+  const ProgramRun run =
+      runWhs(with(localizeArguments({{"--mesh", mesh}, {"--out", folder / "result.json"}}),
+                  {"loop.max_iterations=1", "loop.max_attempts=1"}));
+  EXPECT_THAT(run.err, said);
+  EXPECT_THAT(folder.read("result.json"), HasSubstr("1 line of curves"));
+  Arguments new_session = localizeArguments({{"--mesh", mesh}, {"--out", folder / "s.json"}});
+  new_session[0] = "new";
+  EXPECT_THAT(runWhs(new_session, 0).err, said);
+}
+
 /// Points of the example's mesh where the true pose projects them.
 sessions::Annotations trueAnnotations(std::size_t count) {
   const ExampleCase& example = osExample();
@@ -254,6 +287,20 @@ TEST_F(WhsSolve, SaysWhyACaseHasNoPose) {
   EXPECT_THAT(error, HasSubstr(json["reason"].get<std::string>()));
   EXPECT_EQ(json["warnings"][0]["kind"], "too_few");
   runWhs({"solve", "--session", file, "--case", "unknown"}, 3);
+}
+
+TEST_F(WhsSolve, FewAnnotations_PassNoCheckOfPrecisionAndAreNotValidated) {
+  sessions::Annotations annotations = trueAnnotations(5);
+  for (sessions::PointPair& point : annotations.points) point.sigma_px = 0.02;
+  const Arguments about = {
+      annotatedSession(annotations), "--case", kOsCase, "--source", "annotation",
+      "--convergence-test",          "0"};
+  EXPECT_THAT(runWhs(with({"check"}, about), 4).out,
+              AllOf(HasSubstr("FAIL  Covariance across the view axis"),
+                    HasSubstr("4 degrees of freedom, which cannot confirm their sigmas")));
+  const Arguments decision = {"--validate", "--by", "Ada", "--comment", "right"};
+  EXPECT_THAT(refusal(with(with({"decide"}, about), decision), 4),
+              HasSubstr("failed checks are not waived: Covariance"));
 }
 
 TEST_F(WhsSolve, WrongUse_IsRefused) {

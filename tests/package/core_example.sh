@@ -41,10 +41,10 @@ quietly "$cmake" --build "$folder/build"
 "$folder/build/localize_boxes"
 
 # Another minor version is another interface.
-sed -i 's/find_package(Boresight 1.0/find_package(Boresight 0.9/' "$folder/project/CMakeLists.txt"
+sed -i 's/find_package(Boresight 1.1/find_package(Boresight 1.0/' "$folder/project/CMakeLists.txt"
 rm -rf "$folder/build"
 if configure >"$folder/log" 2>&1; then
-  echo "version 0.9 was asked for, and 1.0 accepted" >&2
+  echo "version 1.0 was asked for, and 1.1 accepted" >&2
   exit 1
 fi
 grep -q "compatible with requested version" "$folder/log" || {

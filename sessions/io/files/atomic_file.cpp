@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "sessions/io/files/errors.h"
+#include "sessions/io/files/unfinished_file.h"
 #include "sessions/log/program_log.h"
 #include "sessions/text/plain_text.h"
 
@@ -50,6 +51,7 @@ class OpenFile {
  public:
   OpenFile(fs::path reported, fs::path name, int flags, bool temporary)
       : reported_(std::move(reported)), name_(std::move(name)) {
+    if (temporary) unfinished_.emplace(name_);
     descriptor_ = ::open(name_.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(reported_, errno);
     temporary_ = temporary;
@@ -103,6 +105,7 @@ class OpenFile {
   fs::path name_;
   int descriptor_ = -1;
   bool temporary_ = false;
+  std::optional<UnfinishedFile> unfinished_;  ///< released after the name is removed
 };
 
 fs::path folderOf(const fs::path& file) {
@@ -265,6 +268,7 @@ void writeFolderAtomically(const fs::path& folder,
   if (there && !(fs::is_directory(status) && fs::is_empty(target, error)))
     throw OutputError(folder, "the name exists; give a new folder");
   const fs::path temporary = temporaryName(target);
+  const UnfinishedFile unfinished(temporary);
   if (::mkdir(temporary.c_str(), 0777) != 0) fail(target, errno);
   try {
     write(temporary);

@@ -75,7 +75,7 @@ TEST(AnnotationConcern, MaskedErrors_AreNamedByTheRobustSolution) {
   const AnnotationConcern robust = annotationConcern(solutionWith(errors_px, true), qualityOf(0.3));
   EXPECT_TRUE(robust.robust);
   EXPECT_THAT(robust.suspects, both);
-  EXPECT_THAT(robust.text, StartsWith("The annotations have 5 degrees of freedom"))
+  EXPECT_THAT(robust.text, StartsWith("The annotations have 4 degrees of freedom"))
       << "the others fit, but are few";
 }
 

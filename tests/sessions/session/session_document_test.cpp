@@ -733,6 +733,19 @@ TEST_F(SessionWithTraces, RedoAfterSaveAs_RestoresRunsWithTheirTraces) {
   EXPECT_EQ(casesWithTraces(), "a b c");
 }
 
+TEST_F(SessionWithTraces, UndoAndRedoOfAnotherEdit_KeepLaterRuns) {
+  SessionHistory history(*document);
+  const auto tag = [](SessionCase& changed) { changed.tags = {"dusty"}; };
+  history.perform(withChanged(document->session(), "a", tag), "Tag a");
+  Session session = document->session();
+  session.runs.push_back(storedRun("a"));
+  document->apply(session, "Run a");
+  history.undo();
+  EXPECT_EQ(casesWithTraces(), "a b a");
+  history.redo();
+  EXPECT_EQ(casesWithTraces(), "a b a");
+}
+
 TEST_F(SessionWithTraces, SaveAs_NamesTheCopiesOfItsTraces) {
   document->saveAs(named);
   removeUntitled();

@@ -6,12 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
 #include <string>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
+#include "sessions/io/files/unfinished_file.h"
 #include "tests/sessions/io/folder_test.h"
 #include "tests/support/matchers.h"
 
@@ -171,6 +173,20 @@ TEST_F(AtomicFile, FolderReplacesNothing) {
   EXPECT_THROW(writeFolderAtomically("", fill), OutputError);
   EXPECT_EQ(folder_.read("full/a"), "mine");
   EXPECT_EQ(folder_.fileCount(), 2u);
+}
+
+/// A signal that ends the program while it writes.
+TEST_F(AtomicFile, UnfinishedWhenTheProgramEnds_IsRemoved) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    writeFolderAtomically(folder_ / "out", [](const fs::path& temporary) {
+      fs::create_directory(temporary / "inside");
+      removeUnfinishedFiles();
+      ::_exit(0);
+    });
+  }
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  EXPECT_EQ(folder_.fileCount(), 0u);
 }
 
 }  // namespace
