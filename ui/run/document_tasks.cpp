@@ -7,19 +7,20 @@
 namespace boresight::ui {
 
 DocumentTasks::DocumentTasks(const Document& document, TaskRunner& tasks)
-    : document_(document), tasks_(tasks), opened_(std::make_shared<const QString>()) {
-  connect(&document, &Document::opened, this, [this] {
-    opened_ = std::make_shared<const QString>(fromText(document_.file().filename().string()));
-  });
+    : document_(document), tasks_(tasks) {}
+
+DocumentTasks::Opened DocumentTasks::opened() const {
+  return {document_.openings(), fromText(document_.file().filename().string())};
 }
 
 /// Whether a result can be used: its session is open, and has its case.
 bool DocumentTasks::holds(const Opened& begun, const std::string& id, const QString& name) {
-  if (begun != opened_)
-    Q_EMIT failed(begun->isEmpty() ? tr("%1 was not used: another session was opened.").arg(name)
-                                   : tr("%1 was not used: it belongs to %2, which is not open any "
-                                        "more.")
-                                         .arg(name, *begun));
+  if (begun.openings != document_.openings())
+    Q_EMIT failed(begun.name.isEmpty()
+                      ? tr("%1 was not used: another session was opened.").arg(name)
+                      : tr("%1 was not used: it belongs to %2, which is not open any "
+                           "more.")
+                            .arg(name, begun.name));
   else if (!id.empty() && !document_.session().findCase(id))
     Q_EMIT failed(tr("%1 was not used: %2 was removed from the session.").arg(name, fromText(id)));
   else
