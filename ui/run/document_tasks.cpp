@@ -7,21 +7,21 @@
 namespace boresight::ui {
 
 DocumentTasks::DocumentTasks(const Document& document, TaskRunner& tasks)
-    : document_(document), tasks_(tasks), opened_(std::make_shared<const QString>()) {
-  connect(&document, &Document::opened, this, [this] {
-    opened_ = std::make_shared<const QString>(fromText(document_.file().string()));
-  });
+    : document_(document), tasks_(tasks) {}
+
+DocumentTasks::Opened DocumentTasks::opened() const {
+  return {document_.openings(), fromText(document_.file().string())};
 }
 
 /// Whether a result can be used: its session is open, and has its case.
 bool DocumentTasks::holds(const Opened& begun, const std::string& id, const ResultName& name) {
-  if (begun != opened_)
-    Q_EMIT failed(begun->isEmpty()
+  if (begun.openings != document_.openings())
+    Q_EMIT failed(begun.name.isEmpty()
                       ? tr("%1 was not used: another session was opened. To use it there, %2.")
                             .arg(name.what, name.again)
                       : tr("%1 was not used: it belongs to %2, which is not open any more. Open "
                            "that session and %3.")
-                            .arg(name.what, *begun, name.again));
+                            .arg(name.what, begun.name, name.again));
   else if (!id.empty() && !document_.session().findCase(id))
     Q_EMIT failed(tr("%1 was not used: %2 was removed from the session. Undo that and %3.")
                       .arg(name.what, fromText(id), name.again));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -24,7 +23,8 @@ struct ResultName {
 
 /// Tasks whose results belong to the session, or to a case of it, that is open when they begin: a
 /// result, or a failure, of a session that is left is dropped, and the report says how to have it
-/// again. Arguments are those of TaskRunner.
+/// again. A session whose edits are recovered or declined, or whose file is read again, is not
+/// left. Arguments are those of TaskRunner.
 class DocumentTasks : public QObject {
   Q_OBJECT
 
@@ -49,20 +49,24 @@ class DocumentTasks : public QObject {
   void failed(const QString& message);
 
  private:
-  using Opened = std::shared_ptr<const QString>;
+  /// The session that was open when a task began.
+  struct Opened {
+    int openings;
+    QString name;  ///< empty: none was open
+  };
 
   /// Calls `take` while the session that is open now is open, and has the case (if not empty).
   template <class Take>
   auto ifHeld(const std::string& id, const ResultName& name, Take take) {
-    return [this, id, name, begun = opened_, take = std::move(take)](auto&& value) {
+    return [this, id, name, begun = opened(), take = std::move(take)](auto&& value) {
       if (holds(begun, id, name)) take(std::forward<decltype(value)>(value));
     };
   }
+  Opened opened() const;
   bool holds(const Opened& begun, const std::string& id, const ResultName& name);
 
   const Document& document_;
   TaskRunner& tasks_;
-  Opened opened_;  ///< file of the open session; another object for each opening
 };
 
 }  // namespace boresight::ui

@@ -336,6 +336,24 @@ TEST_F(ShownCaseTest, RunThatIsReadToBeShown_DoesNotReplaceALaterOne) {
   EXPECT_EQ(window_.state().snapshot(), window_.run().snapshot());
 }
 
+TEST_F(ShownCaseTest, RunThatIsStoredWhileTheSessionGetsAnotherName_IsStoredThere) {
+  openExample();
+  const std::filesystem::path first = file_;
+  newFile();
+  bool named = false;
+  QObject::connect(&window_.run(), &RunController::finished, &window_, [&] {
+    ASSERT_TRUE(window_.document().saveAs(file_));  // at once
+    named = true;
+  });
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return named && session().runs.size() == 1; }));
+  const sessions::RunRecord& run = session().runs[0];
+  EXPECT_EQ(run.file, sessions::runFileOf(file_, run.digest));
+  std::filesystem::remove_all(sessions::runsFolderOf(first));
+  EXPECT_TRUE(std::filesystem::exists(run.file));
+  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
+}
+
 /// What cannot be stored is known, whatever the reason, and is stored as soon as that is possible.
 TEST_F(ShownCaseTest, RunWhoseFolderIsAFile_IsKeptWithTheReasonAndStoredLater) {
   openExample();
