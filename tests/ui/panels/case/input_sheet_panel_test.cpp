@@ -69,7 +69,7 @@ TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
   dialog.findChild<QGroupBox*>(QStringLiteral("cameraStated"))->setChecked(true);
   focal->setValue(0.05);
   ASSERT_TRUE(dialog.calibrationSigma());
-  EXPECT_NEAR(dialog.calibrationSigma()->focal_relative, 5e-4, 1e-12);
+  EXPECT_NEAR(dialog.calibrationSigma()->focal_relative.value_or(0.0), 5e-4, 1e-12);
   EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
 }
 
