@@ -351,7 +351,7 @@ TEST_F(ShownCaseTest, RunThatIsStoredWhileTheSessionGetsAnotherName_IsStoredTher
   EXPECT_EQ(run.file, sessions::runFileOf(file_, run.digest));
   std::filesystem::remove_all(sessions::runsFolderOf(first));
   EXPECT_TRUE(std::filesystem::exists(run.file));
-  EXPECT_TRUE(window_.cases().unstoredRuns().isEmpty());
+  EXPECT_TRUE(window_.store().unstored().isEmpty());
 }
 
 /// What cannot be stored is known, whatever the reason, and is stored as soon as that is possible.
