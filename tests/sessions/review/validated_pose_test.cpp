@@ -217,6 +217,18 @@ TEST_F(ValidatedPose, UnvalidatedPose_OfAnnotationsOrARun_IsLabelledAndVerifies)
   EXPECT_EQ(verified(file).review_status, "NOT VALIDATED: converged");
 }
 
+TEST_F(ValidatedPose, RejectedRunNextToAnnotations_IsHandedOverAsRejectedAndVerifies) {
+  session_.options = {{"loop.max_iterations", std::int64_t{1}}, {"search.enabled", false}};
+  const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
+  ASSERT_FALSE(trace.converged());
+  session_ = withRun(session_, storeRun(session_, id_, trace, folder_ / "s.boresight.json"));
+  session_ = rejected(session_, id_, {}, {"Ann", "it ended too early"});
+  const fs::path file = write();
+  EXPECT_EQ(read(file)["pose"]["source"], "annotation");
+  EXPECT_EQ(read(file)["review_status"], "NOT VALIDATED: rejected by Ann");
+  EXPECT_EQ(verified(file).review_status, "NOT VALIDATED: rejected by Ann");
+}
+
 /// Calls `act` with each leaf of the document.
 void eachLeaf(ordered_json& json, const Edit& act) {
   if (json.is_structured()) {
