@@ -35,7 +35,7 @@ void takeRun(const RunRecord& run, HandedPose& pose) {
 
 void takeAnnotations(const Session& session, const SessionCase& session_case, HandedPose& pose) {
   const CaseAnnotationsSolution solved = solveCaseAnnotations(
-      caseAnnotations(session, session_case.id), annotationsGuess(session_case), {});
+      caseAnnotations(session, session_case.id), session_case.camera_from_station_seed, {});
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
     throw InputError(

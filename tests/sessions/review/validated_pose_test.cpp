@@ -20,6 +20,7 @@
 #include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/review/review_status.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/case_dependencies.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
@@ -479,6 +480,31 @@ TEST_F(ValidatedPose, OfAnnotationsIsMeasuredLikeThatOfARun) {
                 [](sessions::Decision& decision) { decision.pose->covariance.mesh_scale *= 0.99; });
 }
 
+TEST_F(ValidatedPose, OfThreePoints_IsTheSameWhereverThePoseIsNudged) {
+  Random random = randomFor("Nudged");
+  const auto three = annotationsOf(spreadCorners(osExample(), 3), 0.1, random);
+  session_ = withAnnotations(session_, id_, three);
+  validate(0, sessions::PoseSource::kAnnotation);
+  bool depends = false;
+  for (int nudge = 0; nudge < 9; ++nudge) {
+    sessions::SessionCase session_case = *session_.findCase(id_);
+    Pose working = session_case.camera_from_station_seed;
+    const Eigen::Vector3d turn = randomVector(random, 1.5);
+    working.rotation = working.rotation * rotationExp(turn);
+    session_case.camera_from_station_working = working;
+    const Session nudged = withCase(session_, session_case);
+    const auto subject =
+        reviewSubject(nudged, sessions::loadCase(session_case), sessions::PoseSource::kAnnotation);
+    EXPECT_EQ(subject.camera_from_station, subject_.camera_from_station) << turn;
+    EXPECT_NO_THROW((void)handedPose(nudged, id_)) << turn;
+    const auto solved = solveCaseAnnotations(caseAnnotations(nudged, id_), working, {});
+    const auto from_working = solved.camera_from_station();
+    depends |= from_working &&
+               perturbationBetween(subject_.camera_from_station, *from_working).norm() > 0.01;
+  }
+  EXPECT_TRUE(depends) << "three points have several poses";
+}
+
 TEST_F(ValidatedPose, InALocaleWithDecimalComma_HasTheSameChecksAndVerifies) {
   const fs::path file = writeValidated();
   const ordered_json checks = read(file)["checks"];
@@ -575,7 +601,7 @@ const std::vector<std::pair<std::string, const char*>>& freePlaces() {
   static const std::vector<std::pair<std::string, const char*>> kFree = {
       {"/written/.*", "by whom and when a file was written is listed as not proved"},
       {"/session/cases/[0-9]+/tags/.*", "a note"},
-      {"/session/cases/[0-9]+/working/.*", "no run uses the nudged pose"},
+      {"/session/cases/[0-9]+/working/.*", "no pose depends on the nudged pose"},
       {"/session/cases/[0-9]+/(parts|ignore_strokes)/[0-9]+/name", "a note"},
       {"/session/cases/[0-9]+/rig/id", "a name that only joins the cameras"},
       {"/session/cases/[0-9]+/frames/[0-9]+/path", "where a file is; its bytes count"},
