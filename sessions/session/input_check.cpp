@@ -190,9 +190,19 @@ std::vector<FrameTransform> transformsOf(const FrameTransform& known, const fs::
   return transforms;
 }
 
-/// Takes the numbers of changed files, as `whs run --frames` would.
+std::optional<Pose> endEffectorOfFrames(const SessionCase& session_case) {
+  const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame);
+  return chain ? std::optional(chain->a_from_b) : std::nullopt;
+}
+
+/// Takes the numbers of changed files. An end effector that the case states apart from its frames
+/// stays as it is.
 void acceptFrames(SessionCase& session_case) {
-  bool accepted = false;
+  constexpr double kSamePose = 1e-9;  ///< rad, m
+  auto& end_effector = session_case.camera_from_end_effector;
+  const auto former = endEffectorOfFrames(session_case);
+  const bool of_frames =
+      former && end_effector && perturbationBetween(*former, *end_effector).norm() <= kSamePose;
   for (FrameTransform& known : session_case.frames) {
     if (!known.file.is_absolute() || inputSha256(known.file) == known.file_sha256) continue;
     const auto transforms = transformsOf(known, session_case.image.source.file);
@@ -203,11 +213,8 @@ void acceptFrames(SessionCase& session_case) {
       throw InputError(known.file, "it no longer joins " + frameText(known.target) + " and " +
                                        frameText(known.source) + ": state the frames again");
     known = *found;
-    accepted = true;
   }
-  if (!accepted) return;
-  if (const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame))
-    session_case.camera_from_end_effector = chain->a_from_b;
+  if (of_frames) end_effector = endEffectorOfFrames(session_case);
 }
 
 }  // namespace
@@ -301,6 +308,11 @@ Session withAccepted(const Session& session, const SessionCase& before,
         now.parts[i].sha256 = accepted.parts[i].sha256;
     if (now.ignore == before.ignore) now.ignore = accepted.ignore;
     if (now.onboard_record == before.onboard_record) now.onboard_record = accepted.onboard_record;
+    if (now.frames == before.frames) {
+      now.frames = accepted.frames;
+      if (now.camera_from_end_effector == before.camera_from_end_effector)
+        now.camera_from_end_effector = accepted.camera_from_end_effector;
+    }
   });
 }
 
