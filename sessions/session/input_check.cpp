@@ -116,12 +116,7 @@ std::optional<Finding> findingOf(const std::string& case_id, const Dependency& d
   return finding;
 }
 
-bool hasSha256(const fs::path& file, const std::string& sha256) {
-  std::error_code error;
-  return fs::is_regular_file(file, error) && stateOf(file).sha256 == sha256;
-}
-
-/// Files below the session's folder, by name.
+/// Files below the session's folder, by name; each is hashed once.
 class Search {
  public:
   Search(fs::path folder, std::stop_token stop)
@@ -144,8 +139,15 @@ class Search {
   }
 
  private:
-  bool is(const fs::path& file, const Dependency& dependency) const {
-    return !stop_.stop_requested() && hasSha256(file, dependency.sha256);
+  bool is(const fs::path& file, const Dependency& dependency) {
+    return !stop_.stop_requested() && sha256Of(file) == dependency.sha256;
+  }
+  /// Empty for what is no readable file.
+  const std::string& sha256Of(const fs::path& file) {
+    const auto [known, added] = sha256_.try_emplace(file);
+    std::error_code error;
+    if (added && fs::is_regular_file(file, error)) known->second = stateOf(file).sha256;
+    return known->second;
   }
   const std::multimap<fs::path, fs::path>& files() {
     if (listed_) return files_;
@@ -164,6 +166,7 @@ class Search {
   std::stop_token stop_;
   bool listed_ = false;
   std::multimap<fs::path, fs::path> files_;
+  std::map<fs::path, std::string> sha256_;
 };
 
 GrayImage readOrName(const ImageInput& image, const ImageReadOptions& eight_bit) {
@@ -263,10 +266,12 @@ std::vector<Relink> findMissing(const Session& session, const fs::path& session_
 }
 
 Session relinked(const Session& session, const std::vector<Relink>& relinks) {
-  const auto move = [&relinks](fs::path& file) {
-    const auto found = std::ranges::find(relinks, file, &Relink::missing);
-    if (found == relinks.end()) return false;
-    file = found->found;
+  std::map<fs::path, fs::path> found_of;
+  for (const Relink& relink : relinks) found_of.emplace(relink.missing, relink.found);
+  const auto move = [&found_of](fs::path& file) {
+    const auto found = found_of.find(file);
+    if (found == found_of.end()) return false;
+    file = found->second;
     return true;
   };
   Session next = session;
