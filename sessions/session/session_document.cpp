@@ -67,8 +67,8 @@ fs::path traceOf(const RunRecord& run, const fs::path& session_file) {
   return fs::exists(own, error) ? own : run.file;
 }
 
-/// Traces are immutable: a copy that is there already is right. A missing one is reported by
-/// checkInputs.
+/// Traces are immutable, and replaced by renaming: a hard link is as good as a copy, and a copy
+/// that is there already is right. A missing one is reported by checkInputs.
 void copyTrace(const RunRecord& run, const fs::path& from_session, const fs::path& to_session) {
   std::error_code error;
   const fs::path trace = traceOf(run, from_session);
@@ -76,6 +76,8 @@ void copyTrace(const RunRecord& run, const fs::path& from_session, const fs::pat
   if (fs::exists(copy, error) || !fs::exists(trace, error)) return;
   fs::create_directories(copy.parent_path(), error);
   if (error) throw OutputError(copy.parent_path(), error.message());
+  fs::create_hard_link(fs::canonical(trace, error), copy, error);
+  if (!error) return;
   writeFileAtomically(copy, readFileBytes(trace, SIZE_MAX, FileUse::kRun), FileUse::kRun);
 }
 

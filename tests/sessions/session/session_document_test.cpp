@@ -759,7 +759,10 @@ TEST_F(SessionWithTraces, UndoAndRedoOfAnotherEdit_KeepLaterRuns) {
 }
 
 TEST_F(SessionWithTraces, SaveAs_NamesTheCopiesOfItsTraces) {
+  const std::filesystem::path first = document->session().runs[0].file;
   document->saveAs(named);
+  EXPECT_TRUE(std::filesystem::equivalent(first, document->session().runs[0].file))
+      << "linked in one file system";
   removeUntitled();
   EXPECT_EQ(casesWithTraces(), "a b");
   document->saveAs(folder / "named/t.json");
