@@ -32,7 +32,7 @@ std::optional<OtherPose> poseOfAnnotations(const Session& session, const LoadedC
   reason = "it has no annotations";
   if (!session.annotations.contains(id)) return {};
   const CaseAnnotationsSolution solved =
-      solveCaseAnnotations(caseAnnotations(session, id), annotationsGuess(loaded.source),
+      solveCaseAnnotations(caseAnnotations(session, id), loaded.source.camera_from_station_seed,
                            boxCorners(matchedBounds(loaded.scene.view())));
   reason = solved.result.reason;
   if (!solved.result.solution) return {};

@@ -233,7 +233,7 @@ HandedPoses annotatedPoses(const Session& session, const std::vector<std::string
                     [](const AnnotatedView& view) { return !view.annotations.empty(); });
     if (!annotated && !asked) continue;
     const CaseAnnotationsSolution solved =
-        solveCaseAnnotations(annotations, annotationsGuess(*session_case), {});
+        solveCaseAnnotations(annotations, session_case->camera_from_station_seed, {});
     if (const auto solved_pose = solved.camera_from_station()) {
       HandedPose& pose = case_poses.poses.emplace_back();
       pose.case_id = session_case->id;

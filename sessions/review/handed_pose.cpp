@@ -35,7 +35,7 @@ void takeRun(const RunRecord& run, HandedPose& pose) {
 
 void takeAnnotations(const Session& session, const SessionCase& session_case, HandedPose& pose) {
   const CaseAnnotationsSolution solved = solveCaseAnnotations(
-      caseAnnotations(session, session_case.id), annotationsGuess(session_case), {});
+      caseAnnotations(session, session_case.id), session_case.camera_from_station_seed, {});
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
     throw InputError(
@@ -107,8 +107,10 @@ const Check* findStated(const HandedPose& stated, const std::string& id) {
 }
 
 /// A run that had other options than the session has now names them, so that it can be repeated.
+/// One that did not converge has no pose and is not repeated.
 Session withPlans(Session session) {
   for (RunRecord& run : session.runs) {
+    if (!converged(&run)) continue;
     const SessionCase& session_case = *session.findCase(run.case_id);
     if (!run.rerun &&
         run.options_sha256 != optionsDigest(caseOptions(session, session_case, "session")))
@@ -186,17 +188,22 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
   const auto isOther = [&](const std::string& id) {
     return id != case_id && std::ranges::find(linked, id) == linked.end();
   };
+  const Decision* decision = session.decisionOn(case_id);
+  const RunRecord* last = session.lastRunOf(case_id);
+  // A decision on a run holds while it is the last one, whatever the pose is from.
+  const bool needs_last = last != nullptr && decision != nullptr && !decision->digest.empty();
   Session next = session;
   next.cases.eraseIf([&](const auto& item) { return isOther(item->id); });
   next.annotations.eraseIf([&](const auto& entry) { return isOther(entry.first); });
   next.runs.eraseIf([&](const RunRecord& run) {
     if (isOther(run.case_id)) return true;
-    if (run.case_id == case_id) return run.digest != run_digest;
+    if (run.case_id == case_id)
+      return run.digest != run_digest && !(needs_last && run.digest == last->digest);
     const RunRecord* asked = ownRunOf(session, run.case_id, case_id);
     return asked == nullptr || run != *asked;
   });
   next.decisions.clear();
-  if (const Decision* last = session.decisionOn(case_id)) next.decisions.push_back(*last);
+  if (decision != nullptr) next.decisions.push_back(*decision);
   if (!next.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
     next.decisions.front().checks.clear();
   next.rounds.clear();

@@ -74,7 +74,8 @@ CheckedPose checkedPose(const Session& session, const std::string& case_id);
 
 /// The session with this case and those of its rig alone: the run of this digest if any, the runs
 /// of the other cameras that the checks need, and the last decision on the case, whose checks are
-/// left out unless it holds (they could not be measured).
+/// left out unless it holds (they could not be measured). A decision on a run comes with the last
+/// run of the case: it holds while that is its run.
 Session sessionOfCase(const Session& session, const std::string& case_id,
                       const std::string& run_digest);
 

@@ -98,13 +98,8 @@ CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::
   CaseAnnotations annotations = caseAnnotations(session, case_id, together);
   const SessionCase& session_case = *session.findCase(case_id);
   const SceneMesh scene = readKnownScene(session_case);
-  return solveCaseAnnotations(std::move(annotations), annotationsGuess(session_case),
+  return solveCaseAnnotations(std::move(annotations), session_case.camera_from_station_seed,
                               boxCorners(matchedBounds(scene.view())));
-}
-
-const Pose& annotationsGuess(const SessionCase& session_case) {
-  return session_case.camera_from_station_working ? *session_case.camera_from_station_working
-                                                  : session_case.camera_from_station_seed;
 }
 
 std::vector<Eigen::Vector3d> boxCorners(const BoundingBox& box) {

@@ -56,8 +56,10 @@ struct CaseAnnotationsSolution {
 };
 
 /// Solves the result of caseAnnotations(). The desktop program and `whs solve` both use this
-/// function, so that they show the same digits. `camera_from_station_guess` is the case's seed or
-/// working pose; `station_m` spans the station (corners of its box), or is empty.
+/// function, so that they show the same digits. `camera_from_station_guess` is the case's seed, on
+/// which the pose of fewer than four points depends: all callers use it, and none the nudged pose,
+/// which no input fingerprint covers. `station_m` spans the station (corners of its box), or is
+/// empty.
 CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
                                              const Pose& camera_from_station_guess,
                                              std::span<const Eigen::Vector3d> station_m);
@@ -66,10 +68,6 @@ CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
 /// parts are read. InputError also for a part that cannot be read.
 CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::string& case_id,
                                              bool together = true);
-
-/// Start of solving a case's annotations: its working pose, else its seed. The last bits of a
-/// solution depend on it, so all callers use this start.
-const Pose& annotationsGuess(const SessionCase& session_case);
 
 /// The eight corners of a station's box, for solveCaseAnnotations().
 std::vector<Eigen::Vector3d> boxCorners(const BoundingBox& box);

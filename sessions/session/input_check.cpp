@@ -116,12 +116,7 @@ std::optional<Finding> findingOf(const std::string& case_id, const Dependency& d
   return finding;
 }
 
-bool hasSha256(const fs::path& file, const std::string& sha256) {
-  std::error_code error;
-  return fs::is_regular_file(file, error) && stateOf(file).sha256 == sha256;
-}
-
-/// Files below the session's folder, by name.
+/// Files below the session's folder, by name; each is hashed once.
 class Search {
  public:
   Search(fs::path folder, std::stop_token stop)
@@ -144,8 +139,15 @@ class Search {
   }
 
  private:
-  bool is(const fs::path& file, const Dependency& dependency) const {
-    return !stop_.stop_requested() && hasSha256(file, dependency.sha256);
+  bool is(const fs::path& file, const Dependency& dependency) {
+    return !stop_.stop_requested() && sha256Of(file) == dependency.sha256;
+  }
+  /// Empty for what is no readable file.
+  const std::string& sha256Of(const fs::path& file) {
+    const auto [known, added] = sha256_.try_emplace(file);
+    std::error_code error;
+    if (added && fs::is_regular_file(file, error)) known->second = stateOf(file).sha256;
+    return known->second;
   }
   const std::multimap<fs::path, fs::path>& files() {
     if (listed_) return files_;
@@ -164,6 +166,7 @@ class Search {
   std::stop_token stop_;
   bool listed_ = false;
   std::multimap<fs::path, fs::path> files_;
+  std::map<fs::path, std::string> sha256_;
 };
 
 GrayImage readOrName(const ImageInput& image, const ImageReadOptions& eight_bit) {
@@ -190,9 +193,19 @@ std::vector<FrameTransform> transformsOf(const FrameTransform& known, const fs::
   return transforms;
 }
 
-/// Takes the numbers of changed files, as `whs run --frames` would.
+std::optional<Pose> endEffectorOfFrames(const SessionCase& session_case) {
+  const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame);
+  return chain ? std::optional(chain->a_from_b) : std::nullopt;
+}
+
+/// Takes the numbers of changed files. An end effector that the case states apart from its frames
+/// stays as it is.
 void acceptFrames(SessionCase& session_case) {
-  bool accepted = false;
+  constexpr double kSamePose = 1e-9;  ///< rad, m
+  auto& end_effector = session_case.camera_from_end_effector;
+  const auto former = endEffectorOfFrames(session_case);
+  const bool of_frames =
+      former && end_effector && perturbationBetween(*former, *end_effector).norm() <= kSamePose;
   for (FrameTransform& known : session_case.frames) {
     if (!known.file.is_absolute() || inputSha256(known.file) == known.file_sha256) continue;
     const auto transforms = transformsOf(known, session_case.image.source.file);
@@ -203,11 +216,8 @@ void acceptFrames(SessionCase& session_case) {
       throw InputError(known.file, "it no longer joins " + frameText(known.target) + " and " +
                                        frameText(known.source) + ": state the frames again");
     known = *found;
-    accepted = true;
   }
-  if (!accepted) return;
-  if (const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame))
-    session_case.camera_from_end_effector = chain->a_from_b;
+  if (of_frames) end_effector = endEffectorOfFrames(session_case);
 }
 
 }  // namespace
@@ -256,10 +266,12 @@ std::vector<Relink> findMissing(const Session& session, const fs::path& session_
 }
 
 Session relinked(const Session& session, const std::vector<Relink>& relinks) {
-  const auto move = [&relinks](fs::path& file) {
-    const auto found = std::ranges::find(relinks, file, &Relink::missing);
-    if (found == relinks.end()) return false;
-    file = found->found;
+  std::map<fs::path, fs::path> found_of;
+  for (const Relink& relink : relinks) found_of.emplace(relink.missing, relink.found);
+  const auto move = [&found_of](fs::path& file) {
+    const auto found = found_of.find(file);
+    if (found == found_of.end()) return false;
+    file = found->second;
     return true;
   };
   Session next = session;
@@ -301,6 +313,11 @@ Session withAccepted(const Session& session, const SessionCase& before,
         now.parts[i].sha256 = accepted.parts[i].sha256;
     if (now.ignore == before.ignore) now.ignore = accepted.ignore;
     if (now.onboard_record == before.onboard_record) now.onboard_record = accepted.onboard_record;
+    if (now.frames == before.frames) {
+      now.frames = accepted.frames;
+      if (now.camera_from_end_effector == before.camera_from_end_effector)
+        now.camera_from_end_effector = accepted.camera_from_end_effector;
+    }
   });
 }
 

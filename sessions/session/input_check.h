@@ -52,8 +52,8 @@ Session relinked(const Session& session, const std::vector<Relink>& relinks);
 /// cannot be read, or no longer has a transform.
 Session acceptingInputs(const Session& session, const std::string& case_id);
 
-/// The session with the hashes of `accepted`, which acceptingInputs() returned for `before`, for
-/// those files of the case that are still the same files as in `before`.
+/// The session with the hashes and transforms of `accepted`, which acceptingInputs() returned for
+/// `before`, for those files of the case that are still the same files as in `before`.
 Session withAccepted(const Session& session, const SessionCase& before,
                      const SessionCase& accepted);
 

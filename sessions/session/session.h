@@ -102,7 +102,7 @@ struct SessionCase {
   /// annotations alone. Empty: exact. No input of a run.
   std::optional<Matrix6d> truth_covariance;
   std::optional<TruthSource> truth_source;          ///< empty: not known, of version 1.0
-  std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
+  std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of any pose
   std::optional<InputFile> ignore;                  ///< mask image
   MaskStrokes ignore_strokes;                       ///< edits of the mask, applied in their order
   std::optional<InputFile> onboard_record;

@@ -67,15 +67,18 @@ fs::path traceOf(const RunRecord& run, const fs::path& session_file) {
   return fs::exists(own, error) ? own : run.file;
 }
 
-/// Traces are immutable: a copy that is there already is right. A missing one is reported by
-/// checkInputs.
-void copyTrace(const RunRecord& run, const fs::path& to_session) {
+/// Traces are immutable, and replaced by renaming: a hard link is as good as a copy, and a copy
+/// that is there already is right. A missing one is reported by checkInputs.
+void copyTrace(const RunRecord& run, const fs::path& from_session, const fs::path& to_session) {
   std::error_code error;
+  const fs::path trace = traceOf(run, from_session);
   const fs::path copy = runFileOf(to_session, run.digest);
-  if (fs::exists(copy, error) || !fs::exists(run.file, error)) return;
+  if (fs::exists(copy, error) || !fs::exists(trace, error)) return;
   fs::create_directories(copy.parent_path(), error);
   if (error) throw OutputError(copy.parent_path(), error.message());
-  writeFileAtomically(copy, readFileBytes(run.file, SIZE_MAX, FileUse::kRun), FileUse::kRun);
+  fs::create_hard_link(fs::canonical(trace, error), copy, error);
+  if (!error) return;
+  writeFileAtomically(copy, readFileBytes(trace, SIZE_MAX, FileUse::kRun), FileUse::kRun);
 }
 
 /// Ids of the cases that `session` has and `other` lacks.
@@ -346,9 +349,9 @@ void SessionDocument::saveAs(const fs::path& file, std::span<const RunRecord> re
   other.requireEditable();
   other.notices_.clear();
   Session session = session_;
-  for (const RunRecord& run : restorable) copyTrace(run, other.file_);
+  for (const RunRecord& run : restorable) copyTrace(run, file_, other.file_);
   for (RunRecord& run : session.runs) {
-    copyTrace(run, other.file_);
+    copyTrace(run, file_, other.file_);
     run.file = traceOf(run, other.file_);
   }
   const std::string text = sessionFileText(session, other.file_);

@@ -165,7 +165,7 @@ void AnnotationController::askIfChanged(bool anyway) {
   current.annotations.views.front().annotations = annotations_;
   current.one = state_.currentCase();
   current.camera_from_station_guess =
-      sessions::annotationsGuess(*document_.session().findCase(case_id_));
+      document_.session().findCase(case_id_)->camera_from_station_seed;
   current.landmarks = landmarks_;
   current.rounds = roundsOfCase();
   current.blind = sessions::isBlind(current.rounds, annotations_);

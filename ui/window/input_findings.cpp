@@ -2,10 +2,14 @@
 #include "ui/window/input_findings.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <QMessageBox>
 
+#include "sessions/session/case_dependencies.h"
 #include "sessions/session/session_difference.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
@@ -20,12 +24,15 @@ namespace {
 /// Whether a check of their files has the same outcome.
 bool sameFiles(const sessions::SessionCase* a, const sessions::SessionCase* b) {
   if (!a || !b) return a == b;
-  const auto same_mesh = [](const sessions::MeshInput& x, const sessions::MeshInput& y) {
-    return x.source.mesh == y.source.mesh && x.sha256 == y.sha256;
+  const auto files_of = [](const sessions::SessionCase& session_case) {
+    std::vector<std::array<std::string, 3>> files;
+    sessions::forEachFile(session_case, [&files](const std::string& what, const auto& file,
+                                                 const std::string& sha256) {
+      files.push_back({what, file.string(), sha256});
+    });
+    return files;
   };
-  return a->image.source == b->image.source && a->ignore == b->ignore &&
-         a->onboard_record == b->onboard_record &&
-         std::ranges::equal(a->parts, b->parts, same_mesh);
+  return files_of(*a) == files_of(*b);
 }
 
 /// The session with these cases and their runs alone.

@@ -261,6 +261,7 @@ TEST(SessionOfCase, HasTheCaseItsRigAndTheRunsThatItNeeds) {
   EXPECT_EQ(alone.decisions[0], session.decisions.back());
   EXPECT_EQ(alone.rounds.size(), 0u);
   EXPECT_EQ(alone.view, DocumentView());
+  session.decisions.back().digest.clear();
   EXPECT_THAT(RigSession::runsOf(sessionOfCase(session, "a", "")), ElementsAre(last_of_b));
   EXPECT_EQ(sessionOfCase(session, "c", session.runs[4].digest).cases.size(), 1u);
   EXPECT_THAT(sessionOfCase(session, "c", "").decisions, IsEmpty());
@@ -268,6 +269,20 @@ TEST(SessionOfCase, HasTheCaseItsRigAndTheRunsThatItNeeds) {
   session.runs[2].together = TogetherRecord{{{"b", "converged"}, {"a", "converged"}}, ""};
   EXPECT_THAT(RigSession::runsOf(sessionOfCase(session, "a", own)),
               ElementsAre(own, session.runs[1].digest));
+}
+
+TEST(SessionOfCase, DecisionOnARun_HasTheSameStatusForAPoseOfAnnotations) {
+  RigSession rig;
+  rig.judged.noteRun(randomSha256(rig.random), "iteration_limit", rig.random);
+  Session session = rejected(rig.judged.session, "a", {}, {"Ann", "nothing found"});
+  const auto handed = [&session] {
+    return reviewStatusText(reviewStatusOf(sessionOfCase(session, "a", ""), "a"));
+  };
+  EXPECT_EQ(handed(), "NOT VALIDATED: rejected by Ann");
+  rig.judged.session = session;
+  rig.judged.noteRun(randomSha256(rig.random), "iteration_limit", rig.random);
+  session = rig.judged.session;
+  EXPECT_THAT(handed(), HasSubstr("no longer holds: there is a later run"));
 }
 
 TEST(SessionOfCase, DecisionThatDoesNotHold_LosesItsChecks) {

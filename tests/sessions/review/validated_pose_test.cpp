@@ -20,6 +20,7 @@
 #include "sessions/io/json/json_fields.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/review/review_status.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/case_dependencies.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
@@ -215,6 +216,18 @@ TEST_F(ValidatedPose, UnvalidatedPose_OfAnnotationsOrARun_IsLabelledAndVerifies)
   EXPECT_EQ(read(file)["state"], "NOT VALIDATED");
   EXPECT_EQ(read(file)["review_status"], "NOT VALIDATED: converged");
   EXPECT_EQ(verified(file).review_status, "NOT VALIDATED: converged");
+}
+
+TEST_F(ValidatedPose, RejectedRunNextToAnnotations_IsHandedOverAsRejectedAndVerifies) {
+  session_.options = {{"loop.max_iterations", std::int64_t{1}}, {"search.enabled", false}};
+  const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
+  ASSERT_FALSE(trace.converged());
+  session_ = withRun(session_, storeRun(session_, id_, trace, folder_ / "s.boresight.json"));
+  session_ = rejected(session_, id_, {}, {"Ann", "it ended too early"});
+  const fs::path file = write();
+  EXPECT_EQ(read(file)["pose"]["source"], "annotation");
+  EXPECT_EQ(read(file)["review_status"], "NOT VALIDATED: rejected by Ann");
+  EXPECT_EQ(verified(file).review_status, "NOT VALIDATED: rejected by Ann");
 }
 
 /// Calls `act` with each leaf of the document.
@@ -467,6 +480,31 @@ TEST_F(ValidatedPose, OfAnnotationsIsMeasuredLikeThatOfARun) {
                 [](sessions::Decision& decision) { decision.pose->covariance.mesh_scale *= 0.99; });
 }
 
+TEST_F(ValidatedPose, OfThreePoints_IsTheSameWhereverThePoseIsNudged) {
+  Random random = randomFor("Nudged");
+  const auto three = annotationsOf(spreadCorners(osExample(), 3), 0.1, random);
+  session_ = withAnnotations(session_, id_, three);
+  validate(0, sessions::PoseSource::kAnnotation);
+  bool depends = false;
+  for (int nudge = 0; nudge < 9; ++nudge) {
+    sessions::SessionCase session_case = *session_.findCase(id_);
+    Pose working = session_case.camera_from_station_seed;
+    const Eigen::Vector3d turn = randomVector(random, 1.5);
+    working.rotation = working.rotation * rotationExp(turn);
+    session_case.camera_from_station_working = working;
+    const Session nudged = withCase(session_, session_case);
+    const auto subject =
+        reviewSubject(nudged, sessions::loadCase(session_case), sessions::PoseSource::kAnnotation);
+    EXPECT_EQ(subject.camera_from_station, subject_.camera_from_station) << turn;
+    EXPECT_NO_THROW((void)handedPose(nudged, id_)) << turn;
+    const auto solved = solveCaseAnnotations(caseAnnotations(nudged, id_), working, {});
+    const auto from_working = solved.camera_from_station();
+    depends |= from_working &&
+               perturbationBetween(subject_.camera_from_station, *from_working).norm() > 0.01;
+  }
+  EXPECT_TRUE(depends) << "three points have several poses";
+}
+
 TEST_F(ValidatedPose, InALocaleWithDecimalComma_HasTheSameChecksAndVerifies) {
   const fs::path file = writeValidated();
   const ordered_json checks = read(file)["checks"];
@@ -563,7 +601,7 @@ const std::vector<std::pair<std::string, const char*>>& freePlaces() {
   static const std::vector<std::pair<std::string, const char*>> kFree = {
       {"/written/.*", "by whom and when a file was written is listed as not proved"},
       {"/session/cases/[0-9]+/tags/.*", "a note"},
-      {"/session/cases/[0-9]+/working/.*", "no run uses the nudged pose"},
+      {"/session/cases/[0-9]+/working/.*", "no pose depends on the nudged pose"},
       {"/session/cases/[0-9]+/(parts|ignore_strokes)/[0-9]+/name", "a note"},
       {"/session/cases/[0-9]+/rig/id", "a name that only joins the cameras"},
       {"/session/cases/[0-9]+/frames/[0-9]+/path", "where a file is; its bytes count"},

@@ -133,6 +133,15 @@ TEST(InputCheck, FilesOfFrames_AreInputs) {
   const Session accepted = acceptingInputs(read, "bc");
   EXPECT_THAT(checkInputs(accepted), IsEmpty());
   EXPECT_EQ(accepted.cases[0]->camera_from_end_effector->translation_m.z(), 0.41);
+  EXPECT_TRUE(withAccepted(read, *read.cases[0], *accepted.cases[0]) == accepted);
+  const auto apart = [](SessionCase& item) {
+    item.camera_from_end_effector->translation_m.z() = 0.2;
+  };
+  const Session own = withChanged(read, "bc", apart);
+  EXPECT_EQ(acceptingInputs(own, "bc").cases[0]->camera_from_end_effector->translation_m.z(), 0.2)
+      << "stated apart from the frames";
+  EXPECT_EQ(*withAccepted(own, *read.cases[0], *accepted.cases[0]).findCase("bc"),
+            *acceptingInputs(own, "bc").findCase("bc"));
   text.replace(text.find("END_EFFECTOR"), 12, "WRIST");
   folder.write("frames/arm.json", text);
   EXPECT_THAT(folder.message([&] { (void)acceptingInputs(read, "bc"); }),
@@ -291,6 +300,9 @@ TEST(InputCheck, AcceptedParts_AreThoseOfTheSameFileAndHash) {
   expected.parts[1].sha256 = std::string(64, 'e');
   expected.ignore = accepted.ignore;
   expected.onboard_record = accepted.onboard_record;
+  EXPECT_EQ(*withAccepted(withCase(session, now), before, accepted).findCase(before.id), expected);
+  now.frames = {shifted(kCameraFrame, kEndEffectorFrame, 0.1)};  // stated meanwhile
+  expected.frames = now.frames;
   EXPECT_EQ(*withAccepted(withCase(session, now), before, accepted).findCase(before.id), expected);
   now.parts.pop_back();
   now.ignore = InputFile{"/own.png", std::string(64, 'b')};

@@ -702,6 +702,18 @@ TEST_F(SessionWithTraces, UndoAfterSaveAs_RestoresRunsWithTheirTraces) {
   EXPECT_EQ(casesWithTraces(), "a");
 }
 
+TEST_F(SessionWithTraces, UndoAfterSaveAsTwice_RestoresRunsWithTheirTraces) {
+  SessionHistory history(*document);
+  removeCase(history, "b");
+  history.saveAs(named);
+  removeUntitled();
+  const std::filesystem::path again = folder / "again/s.json";
+  std::filesystem::create_directories(again.parent_path());
+  history.saveAs(again);
+  history.undo();
+  EXPECT_EQ(casesWithTraces(), "a b");
+}
+
 TEST_F(SessionWithTraces, UndoAfterSaveAs_OfAnEditBefore_RestoresRunsWithTheirTraces) {
   SessionHistory history(*document);
   removeCase(history, "a");
@@ -747,7 +759,10 @@ TEST_F(SessionWithTraces, UndoAndRedoOfAnotherEdit_KeepLaterRuns) {
 }
 
 TEST_F(SessionWithTraces, SaveAs_NamesTheCopiesOfItsTraces) {
+  const std::filesystem::path first = document->session().runs[0].file;
   document->saveAs(named);
+  EXPECT_TRUE(std::filesystem::equivalent(first, document->session().runs[0].file))
+      << "linked in one file system";
   removeUntitled();
   EXPECT_EQ(casesWithTraces(), "a b");
   document->saveAs(folder / "named/t.json");
