@@ -227,19 +227,21 @@ QString ReviewController::settled(Act act) const {
 
 bool ReviewController::showsOtherRun() const {
   const ViewState::SnapshotPtr& run = state_.snapshot();
-  return source_ == PoseSource::kRun && run && run->digest != runDigest();
+  return source_ == PoseSource::kRun && hasRun() && (!run || run->digest != runDigest());
 }
 
-/// Only a pose that is shown, with its checks, can be decided on.
+/// Only a pose that is shown can be decided on; it is validated with its checks.
 QString ReviewController::unseen(Act act) const {
   const QString id = fromText(caseId());
-  if (act != Act::kValidate) return {};
-  if (!problem_.isEmpty()) return problem_;
-  if (!current_) return tr("the checks of %1 are not complete yet: wait for them").arg(id);
-  if (showsOtherRun())
-    return tr("the image shows another run than the checks are of: show the last run of %1")
-        .arg(id);
-  return {};
+  if (act != Act::kValidate && act != Act::kReject) return {};
+  if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
+  if (act == Act::kValidate && !current_)
+    return tr("the checks of %1 are not complete yet: wait for them").arg(id);
+  if (!showsOtherRun()) return {};
+  return state_.snapshot()
+             ? tr("the image shows another run than the checks are of: show the last run of %1")
+                   .arg(id)
+             : tr("the image shows no run: show the last run of %1").arg(id);
 }
 
 QString ReviewController::obstacle(Act act, const sessions::Signature& who) const {

@@ -104,8 +104,9 @@ class CaseByCase {
     std::string id;
     Value value;
     bool current = false;
-    std::uint64_t version = 0;  ///< another one after each change of what it depends on
-    WaitingRank rank = {};      ///< while it waits
+    /// Another one after each change of what it depends on; never that of an earlier entry.
+    std::uint64_t version = 0;
+    WaitingRank rank = {};  ///< while it waits
   };
   /// A value that is being made.
   struct Order {
@@ -135,9 +136,10 @@ class CaseByCase {
       const std::string& id = session_case->id;
       if (!isListed(id)) continue;
       const auto found = former_places.find(id);
-      entries_.push_back(found == former_places.end()
-                             ? std::make_unique<Entry>(Entry{id, work_.first(session_, id)})
-                             : std::move(former[found->second]));
+      entries_.push_back(
+          found == former_places.end()
+              ? std::make_unique<Entry>(Entry{id, work_.first(session_, id), false, ++versions_})
+              : std::move(former[found->second]));
       const std::size_t place = entries_.size() - 1;
       places_[id] = place;
       if (!entries_[place]->current) wait(place);
@@ -148,7 +150,7 @@ class CaseByCase {
     Entry& entry = *entries_[place];
     if (!entry.current) waiting_.erase({entry.rank, place});
     entry.current = false;
-    ++entry.version;
+    entry.version = ++versions_;
     if (glances)
       std::tie(entry.value, entry.current) =
           work_.glance(session_, entry.id, std::move(entry.value));
@@ -216,7 +218,8 @@ class CaseByCase {
   bool active_ = false;
   bool making_ = false;
   std::uint64_t tasks_ = 0;
-  TaskRunner runner_;  ///< declared last: it ends before the members that its work uses
+  std::uint64_t versions_ = 0;  ///< never restarts: a task of a removed entry may still end
+  TaskRunner runner_;           ///< declared last: it ends before the members that its work uses
 };
 
 }  // namespace boresight::ui

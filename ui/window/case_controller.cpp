@@ -84,6 +84,10 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
 QString CaseController::caseId() const { return fromText(openId()); }
 
 void CaseController::documentOpened() {
+  if (batch_.isActive())
+    Q_EMIT noted(tr("The batch run was stopped: its session was closed."));
+  else if (isWorking())
+    Q_EMIT noted(tr("The run of %1 was stopped: its session was closed.").arg(caseId()));
   batch_.stop();
   batch_.dropSummary();
   leaveCase();
@@ -95,13 +99,20 @@ void CaseController::documentOpened() {
 
 /// Drops what was requested for the open case.
 void CaseController::leaveCase() {
-  for (const TaskKind* kind : {&reading_, &reading_run_, &showing_run_}) tasks_.cancel(*kind);
+  tasks_.cancel(reading_);
+  dropRunReading();
   run_when_loaded_.reset();
   reads_ = false;
-  reads_run_ = false;
   load_problem_.clear();
   input_concern_.reset();
   dropRun();
+}
+
+/// Drops the reading of a run that is to be shown.
+void CaseController::dropRunReading() {
+  tasks_.cancel(reading_run_);
+  tasks_.cancel(showing_run_);
+  reads_run_ = false;
 }
 
 /// The case that was shown last, else the first.
@@ -305,7 +316,7 @@ void CaseController::start(const std::function<void()>& prepare, StepUntil until
     return;
   }
   batch_.dropSummary();
-  tasks_.cancel(showing_run_);  // the run before would be shown over this one
+  dropRunReading();  // the run before would be shown over this one
   run_.advance(until);
 }
 
@@ -385,6 +396,7 @@ void CaseController::stop() {
 void CaseController::reset() {
   run_.stop();
   dropRun();
+  dropRunReading();
   state_.setSnapshot(nullptr);
   Q_EMIT stalenessChanged();
 }
@@ -451,9 +463,11 @@ void CaseController::runNext() {
   next.isEmpty() ? endBatch() : batch_.run(batch_session_, next);
 }
 
-/// Of a batch, in the views, where they show that case and no other run of it is under way.
+/// Of a batch, in the views, where they show that case and no other run of it is under way or
+/// halted.
 void CaseController::showRunOf(const std::string& case_id) {
-  if (case_id != openId() || run_.state() == RunState::kWorking || !isLoaded()) return;
+  const bool under_way = run_.state() == RunState::kWorking || run_.state() == RunState::kHalted;
+  if (case_id != openId() || under_way || !isLoaded()) return;
   dropRun();
   loadLatestRun();
 }

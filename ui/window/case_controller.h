@@ -117,6 +117,7 @@ class CaseController : public QObject {
   void reportBatch();
   void documentChanged();
   void leaveCase();
+  void dropRunReading();
   void openFirst();
   void showChange(const sessions::SessionCase& session_case);
   std::string openId() const { return state_.opening().id; }

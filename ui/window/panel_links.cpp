@@ -94,7 +94,10 @@ void PanelLinks::linkCases() {
     details_->setSession(parts_.document.session());
     rows_.follow(parts_.document.session());
   };
-  connect(&parts_.document, &Document::opened, this, [this] { rows_.clear(); });
+  connect(&parts_.document, &Document::opened, this, [this] {
+    rows_.clear();
+    showCases();  // what follows shows nothing where the session has no case
+  });
   connectEach(parts_.document, this, document_shown, &Document::opened, &Document::changed);
   connect(details_, &CaseDetails::changed, this, [this](const std::set<std::string>& ids) {
     for (const std::string& id : ids) showCase(rows_.placeOf(id));

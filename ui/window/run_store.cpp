@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include <QCoreApplication>
+#include <QEventLoop>
+#include <QTimer>
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/views_run.h"
@@ -134,9 +135,12 @@ QString RunStore::unstoredReason() const {
 }
 
 void RunStore::finish() {
-  while (isStoring() && runner_.isBusy())
-    QCoreApplication::processEvents(
-        QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents, kStorePatience_ms);
+  QEventLoop loop;
+  QTimer patience;
+  connect(&runner_, &TaskRunner::busyChanged, &loop, &QEventLoop::quit);
+  connect(&patience, &QTimer::timeout, &loop, &QEventLoop::quit);
+  patience.start(kStorePatience_ms);
+  while (isStoring() && runner_.isBusy()) loop.exec(QEventLoop::ExcludeUserInputEvents);
 }
 
 }  // namespace boresight::ui

@@ -105,13 +105,14 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   const DroppedFiles dropped = restarts ? alone : classify(files, collected_);
   const std::string kept = restarts ? std::string() : alone.keptNames(collected_);
   for (const std::string& problem : dropped.problems) Q_EMIT failed(fromText(problem));
+  if (!files.empty() && alone.problems.size() == files.size()) return;  // none can be used
   if (dropped.session) {
     leaveFor(*dropped.session);
     return;
   }
   if (dropped.results) return makeFrom(*dropped.results, true);
   kept_ = fromText(kept);
-  collect(dropped);
+  collect(dropped, !restarts && !dropped.dataset);
   // Of the case that is open, unless it comes with the files of another.
   if (dropped.isRecordAlone() && parts_.state.currentCase()) {
     const std::filesystem::path record = *collected_.record;
@@ -133,7 +134,8 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   if (dropped.isCase()) makeCollected();
 }
 
-void SessionFiles::collect(const DroppedFiles& files) {
+void SessionFiles::collect(const DroppedFiles& files, bool amends) {
+  if (amends) requested_.erase(collection_);
   collected_ = files;
   ++collection_;
   judgeCollected();
@@ -268,11 +270,10 @@ void SessionFiles::makeCollected() {
   parts_.of_document.ofDocument(
       newCaseName(), [](const std::stop_token&) { return true; },
       [this, request](bool) {
-        if (!addCase(request)) requested_.erase(request.collection);
+        if (isRequested(request) && !addCase(request)) requested_.erase(request.collection);
       },
       [this, request](const QString& message) {
-        requested_.erase(request.collection);
-        Q_EMIT failed(message);
+        if (requested_.erase(request.collection)) Q_EMIT failed(message);
       });
 }
 
@@ -346,7 +347,7 @@ bool SessionFiles::addCase(Request request) {
     return false;
   }
   const int opening = parts_.document.openings();
-  if (!askForUnits(request.files) || !isStillOpen(opening)) return false;
+  if (!askForUnits(request.files) || !isStillOpen(opening) || !isRequested(request)) return false;
   if (request.collection == collection_) collected_.one.parts = request.files.one.parts;
   makeCase(request);
   return true;
@@ -363,6 +364,7 @@ void SessionFiles::makeCase(const Request& request) {
         return session_case;
       },
       [this, request](sessions::SessionCase session_case) {
+        if (!isRequested(request)) return;
         const bool taken = takeCase(std::move(session_case));
         requested_.erase(request.collection);
         // The collected files stay when they make no case yet: a further file may be needed. So do
@@ -373,8 +375,7 @@ void SessionFiles::makeCase(const Request& request) {
                          : QString());
       },
       [this, request](const QString& message) {
-        requested_.erase(request.collection);
-        Q_EMIT failed(message);
+        if (requested_.erase(request.collection)) Q_EMIT failed(message);
       });
 }
 

@@ -113,7 +113,10 @@ class SessionFiles : public QObject {
     QString kept;  ///< names of files of earlier drops
   };
 
-  void collect(const DroppedFiles& files);
+  /// Other files of a new case, or an amendment, which withdraws the request of those before.
+  void collect(const DroppedFiles& files, bool amends = true);
+  /// Whether a case of these files is still wanted.
+  bool isRequested(const Request& request) const { return requested_.contains(request.collection); }
   void makeFrom(const std::filesystem::path& file, bool results);
   [[nodiscard]] bool addCase(Request request);
   void makeCase(const Request& request);

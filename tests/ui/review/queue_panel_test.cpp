@@ -303,7 +303,11 @@ TEST_F(QueuePanelTest, CaseThatIsStillReadOrShowsAnotherRun_IsNotDecided) {
   const auto shown_before = window_.state().snapshot();
   window_.state().setSnapshot(
       std::make_shared<sessions::LocalizationTrace>(RunExample::get().failed));
-  EXPECT_TRUE(test::has(obstacle(Act::kValidate), "shows another run"));
+  for (const Act act : {Act::kValidate, Act::kReject})
+    EXPECT_TRUE(test::has(obstacle(act), "shows another run"));
+  window_.state().setSnapshot(nullptr);
+  for (const Act act : {Act::kValidate, Act::kReject})
+    EXPECT_TRUE(test::has(obstacle(act), "shows no run"));
   window_.state().setSnapshot(shown_before);
 }
 

@@ -58,6 +58,9 @@ class ReviewPanelTest : public ::testing::Test {
     ASSERT_TRUE(document_.create(file(), session));
     static const auto loaded = sessions::loadCase(*exampleSession().cases.front());
     state_.setCase(loaded);
+    if (const sessions::RunRecord* run = document_.session().lastRunOf(firstCase()))
+      state_.setSnapshot(
+          std::make_shared<const sessions::LocalizationTrace>(sessions::loadSnapshot(*run)));
   }
   void openRun() {
     open(test::withRunOfSeed(exampleSession(), file()));

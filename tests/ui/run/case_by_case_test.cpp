@@ -141,6 +141,31 @@ TEST_F(CaseByCaseTest, ValueOfACaseThatChangesWhileItIsMade_IsMadeAgain) {
   EXPECT_TRUE(values_.isCurrent(4));
 }
 
+TEST_F(CaseByCaseTest, TaskOfTheSessionBefore_SetsNoValueOfACaseOfTheSameId) {
+  name(4, "Gusev");
+  values_.setActive(true);
+  values_.follow(session_);
+  ASSERT_TRUE(values_.isBusy());
+  values_.clear();
+  name(4, "Jezero");
+  values_.follow(session_);
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(values_.value(4), "Jezero");
+  EXPECT_TRUE(values_.isCurrent(4));
+}
+
+TEST_F(CaseByCaseTest, TaskOfARemovedCase_SetsNoValueOfOneThatIsAddedAgain) {
+  name(4, "Gusev");
+  values_.setActive(true);
+  values_.follow(session_);
+  ASSERT_TRUE(values_.isBusy());
+  values_.follow(sessions::withoutCase(session_, "case-4"));
+  name(4, "Jezero");
+  values_.follow(session_);
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(values_.value(4), "Jezero");
+}
+
 TEST_F(CaseByCaseTest, AddedAndRemovedCases_LeaveTheOthersAsTheyAre) {
   begin();
   session_ = sessions::withoutCase(session_, "case-0");

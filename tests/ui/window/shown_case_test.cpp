@@ -324,6 +324,77 @@ TEST_F(ShownCaseTest, RunThatHasEnded_IsStoredWhileFilesAreRead) {
   ASSERT_TRUE(rests());
 }
 
+/// The last run of a case that was opened came over one that was made meanwhile.
+TEST_F(ShownCaseTest, RunBefore_IsNotShownOverOneThatHasEnded) {
+  openRun();
+  sessions::Session other = session();
+  other.options = {{"search.enabled", false}, {"templates.count", std::int64_t{48}}};
+  ASSERT_TRUE(window_.document().edit(other, QStringLiteral("Options")));
+  choose(b());
+  ASSERT_TRUE(showsCase(b()));
+  choose(a());
+  HeldReader reader(window_.tasks());
+  ASSERT_TRUE(wait([&] { return shown() == a(); }));
+  window_.cases().advance(sessions::StepUntil::kEnd);
+  EXPECT_FALSE(window_.cases().readsRun());
+  EXPECT_TRUE(wait([&] { return session().runs.size() == 2; }));
+  reader.gate.set_value();
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(window_.state().snapshot()->digest, session().lastRunOf(a())->digest);
+}
+
+TEST_F(ShownCaseTest, RunThatIsRead_IsNotShownAfterAReset) {
+  openRun();
+  choose(b());
+  ASSERT_TRUE(showsCase(b()));
+  choose(a());
+  HeldReader reader(window_.tasks());
+  ASSERT_TRUE(wait([&] { return shown() == a(); }));
+  window_.cases().reset();
+  reader.gate.set_value();
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(window_.state().snapshot(), nullptr);
+  EXPECT_FALSE(window_.cases().readsRun());
+}
+
+TEST_F(ShownCaseTest, HaltedRun_StaysWhereABatchStoresARunOfItsCase) {
+  openExample();
+  window_.cases().advance(sessions::StepUntil::kIteration);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+  window_.cases().runAll({fromText(b()), fromText(a())});
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  EXPECT_EQ(session().runs.size(), 2u);
+  EXPECT_EQ(window_.run().state(), RunState::kHalted);
+  EXPECT_EQ(window_.state().snapshot(), window_.run().snapshot());
+}
+
+TEST_F(ShownCaseTest, SessionThatIsLeft_EndsItsRunsWithAMessage) {
+  QString noted;
+  QObject::connect(&window_.cases(), &CaseController::noted, &window_,
+                   [&](const QString& text) { noted = text; });
+  openExample();
+  window_.cases().runAll({fromText(a()), fromText(b())});
+  open(test::exampleSession());
+  EXPECT_TRUE(test::has(noted, "The batch run was stopped"));
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
+  window_.document().close();
+  EXPECT_TRUE(test::has(noted, ("The run of " + a() + " was stopped").c_str()));
+}
+
+TEST_F(ShownCaseTest, ListOfCases_IsThatOfTheSessionAlsoWithoutCases) {
+  openExample();
+  const QAbstractItemModel& list = *find<QTableView>("cases").model();
+  EXPECT_EQ(list.rowCount(), 2);
+  window_.document().close();
+  EXPECT_EQ(list.rowCount(), 0);
+  openExample();
+  EXPECT_EQ(list.rowCount(), 2);
+  newFile();
+  ASSERT_TRUE(window_.document().create(file_, sessions::Session()));
+  EXPECT_EQ(list.rowCount(), 0);
+}
+
 /// A run that was read to be shown came over one that was begun and halted meanwhile.
 TEST_F(ShownCaseTest, RunThatIsReadToBeShown_DoesNotReplaceALaterOne) {
   openRun();
@@ -366,6 +437,24 @@ TEST_F(ShownCaseTest, RunWhoseFolderIsAFile_IsKeptWithTheReasonAndStoredLater) {
   ASSERT_TRUE(window_.document().save());
   ASSERT_TRUE(wait([&] { return session().runs.size() == 1; }));
   EXPECT_TRUE(window_.store().unstored().isEmpty());
+}
+
+TEST_F(ShownCaseTest, WaitForARunThatIsBeingStored_SleepsMeanwhile) {
+  openExample();
+  const int none = -1;
+  int rounds = none;
+  QObject::connect(&window_.run(), &RunController::finished, &window_, [&] {
+    ASSERT_TRUE(window_.store().isStoring());
+    rounds = 0;
+    const QObject here;
+    QObject::connect(QAbstractEventDispatcher::instance(), &QAbstractEventDispatcher::awake, &here,
+                     [&rounds] { ++rounds; });
+    window_.store().finish();
+    EXPECT_FALSE(window_.store().isStoring());
+  });
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return rounds != none && resting(); }));
+  EXPECT_LT(rounds, 100);
 }
 
 TEST_F(ShownCaseTest, ClosingDuringAnExport_Asks) {

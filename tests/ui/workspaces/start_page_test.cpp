@@ -154,6 +154,35 @@ TEST_F(StartPageTest, DoubleClick_MakesOneCase) {
   EXPECT_EQ(questions, 0);
 }
 
+/// The case of the files before the correction was added.
+TEST_F(StartPageTest, CorrectedFilesAndUnit_ReplaceTheRequestBefore) {
+  int questions = 0;
+  const test::ModalAnswer<QMessageBox> cancels([&questions](QMessageBox& box) {
+    ++questions;
+    box.reject();
+  });
+  const auto bc = test::exampleFolder() / "bc";
+  const auto better = folder_.path() / "better_seed.json";
+  std::filesystem::copy_file(bc / "truth.json", better);
+  window_.takeFiles({bc / "image.png", bc / "camera.json", bc / "model.ply"});
+  files().setMeshUnit("mm");
+  window_.takeFiles({bc / "seed.json"});
+  files().setMeshUnit("m");
+  folder_.write("notes.txt", "hello");
+  window_.takeFiles({folder_.path() / "notes.txt"});
+  window_.takeFiles({better});
+  const sessions::CaseFiles wanted = files().collected().one;
+  EXPECT_EQ(wanted.seed, better);
+  ASSERT_TRUE(caseIsMade());
+  ASSERT_TRUE(rests());
+  ASSERT_EQ(window_.document().session().cases.size(), 1u);
+  const sessions::SessionCase& made = *window_.document().session().cases.front();
+  EXPECT_EQ(made.parts.front().source.mesh_unit, "m");
+  EXPECT_EQ(made.camera_from_station_seed,
+            sessions::makeCase(wanted).made.camera_from_station_seed);
+  EXPECT_EQ(questions, 0);
+}
+
 /// They were forgotten with those of the case that was being made.
 TEST_F(StartPageTest, FilesDroppedWhileACaseIsMade_Stay) {
   openExample();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/case/calibration_panel.h"
 
+#include <utility>
+
 #include <QtWidgets>
 
 #include "sessions/calibration/calibrated_values.h"
@@ -70,6 +72,7 @@ CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRun
   });
   state_.onChange(ViewChange::kCase, this,
                   [this] { ui_.calibrate->setEnabled(state_.currentCase() && !calibrates_); });
+  connect(&document_, &Document::changed, this, &CalibrationPanel::followCamera);
   forget(purpose());
 }
 
@@ -77,11 +80,19 @@ CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRun
 void CalibrationPanel::forget(const QString& reason) {
   tasks_.cancel(calibrating_);
   calibration_.reset();
+  calibrated_.reset();
   calibrates_ = false;
   ui_.calibrationParameters->setRowCount(0);
   ui_.use->setEnabled(false);
   ui_.calibrate->setEnabled(state_.currentCase() != nullptr);
   ui_.summary->setText(reason);
+}
+
+/// Its cases would get the calibration of another camera.
+void CalibrationPanel::followCamera() {
+  const sessions::SessionCase* shown = shownCase(document_, state_);
+  if (calibrated_ && shown && !(shown->camera == *calibrated_))
+    forget(tr("The camera of the case has changed: calibrate again."));
 }
 
 void CalibrationPanel::calibrate() {
@@ -93,22 +104,23 @@ void CalibrationPanel::calibrate() {
   if (shown == nullptr) return;
   forget(tr("Calibrating ..."));
   calibrates_ = true;
+  calibrated_ = shown->camera;
   ui_.calibrate->setEnabled(false);
   tasks_.replace(
       calibrating_,
       [session = document_.session(), id = shown->id, source, free](const std::stop_token&) {
         return sessions::calibrateCameraOf(session, id, source, free);
       },
-      [this, before = shown->camera](const sessions::CameraCalibration& calibration) {
-        take(before, calibration);
-      },
+      [this](const sessions::CameraCalibration& calibration) { take(calibration); },
       [this](const QString& problem) { forget(tr("Not calibrated: %1.").arg(problem)); });
 }
 
-void CalibrationPanel::take(const Camera& before, const sessions::CameraCalibration& calibration) {
+void CalibrationPanel::take(const sessions::CameraCalibration& calibration) {
+  const Camera before = *calibrated_;
   const auto values = sessions::calibratedValues(before, calibration);
   forget(summaryText(calibration, values));
   calibration_ = calibration;
+  calibrated_ = before;
   for (const sessions::CalibratedValue& value : values)
     addRow(*ui_.calibrationParameters, rowOf(value));
   ui_.use->setEnabled(calibration.undetermined.empty());
@@ -117,8 +129,9 @@ void CalibrationPanel::take(const Camera& before, const sessions::CameraCalibrat
 void CalibrationPanel::use() {
   const std::string id = shownCaseId(document_, state_);
   if (!calibration_ || id.empty()) return;
-  document_.edit(sessions::withCalibration(document_.session(), id, *calibration_),
-                 tr("Use the calibrated camera"));
+  const sessions::Session next = sessions::withCalibration(document_.session(), id, *calibration_);
+  const auto former = std::exchange(calibrated_, calibration_->camera);  // its result stays shown
+  if (!document_.edit(next, tr("Use the calibrated camera"))) calibrated_ = former;
 }
 
 }  // namespace boresight::ui

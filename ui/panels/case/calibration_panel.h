@@ -26,15 +26,17 @@ class CalibrationPanel : public QWidget {
 
  private:
   void calibrate();
-  void take(const Camera& before, const sessions::CameraCalibration& calibration);
+  void take(const sessions::CameraCalibration& calibration);
   void use();
   void forget(const QString& reason);
+  void followCamera();
 
   Document& document_;
   ViewState& state_;
   TaskRunner& tasks_;
   TaskKind calibrating_;
   std::optional<sessions::CameraCalibration> calibration_;
+  std::optional<Camera> calibrated_;  ///< the shown case's, as it was before the calibration
   bool calibrates_ = false;
   CaseOpening opening_;  ///< case of the calibrated camera
   Ui::CalibrationPanel ui_;

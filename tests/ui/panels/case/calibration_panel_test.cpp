@@ -36,6 +36,7 @@ TEST_F(CalibrationPanelTest, FindsALongerLensAndUsesItForItsCases) {
     EXPECT_NEAR(session_case->camera.fx / before, test::kLongerFocalLength, 1e-3);
     EXPECT_TRUE(session_case->calibration_sigma);
   }
+  EXPECT_EQ(table.rowCount(), 3) << "the result stays";
   QTest::keySequence(&window_, QKeySequence::Undo);
   EXPECT_EQ(window_.document().session().cases[0]->camera.fx, before);
 }
@@ -49,6 +50,33 @@ TEST_F(CalibrationPanelTest, ResultForAnotherCase_IsNotShown) {
   ASSERT_TRUE(showsCase(other));
   EXPECT_EQ(find<QTableWidget>("calibrationParameters").rowCount(), 0);
   EXPECT_FALSE(find<QPushButton>("use").isEnabled());
+}
+
+/// It was written to all cases of the other camera.
+TEST_F(CalibrationPanelTest, ResultForAnotherCamera_IsDropped) {
+  sessions::Session session = test::sessionOfALongerLens(8);
+  sessions::SessionCase other = *session.cases[0];
+  other.id = "other";
+  other.camera.fx *= 2.0;
+  other.camera.fy *= 2.0;
+  session = sessions::withCase(session, other);
+  const auto other_camera = [&other](sessions::SessionCase& changed) {
+    changed.camera = other.camera;
+  };
+  const std::string id = session.cases[0]->id;
+  for (const bool ended : {true, false}) {
+    open(session);
+    window_.dock(QStringLiteral("calibration"))->show();
+    find<QPushButton>("calibrate").click();
+    ASSERT_TRUE(!ended || rests());
+    ASSERT_TRUE(window_.document().edit(
+        sessions::withChanged(window_.document().session(), id, other_camera),
+        QStringLiteral("Use other.json")));
+    EXPECT_TRUE(test::has(summary(), "The camera of the case has changed"));
+    ASSERT_TRUE(rests());
+    EXPECT_EQ(find<QTableWidget>("calibrationParameters").rowCount(), 0);
+    EXPECT_FALSE(find<QPushButton>("use").isEnabled());
+  }
 }
 
 TEST_F(CalibrationPanelTest, SaysWhyItCannot) {
