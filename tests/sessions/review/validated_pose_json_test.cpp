@@ -102,7 +102,7 @@ TEST(ValidatedPoseJson, Covariance_IsWrittenWhereItIsKnown) {
   }
   Handed assumed(random, [](SessionCase& item) {
     item.mesh_scale_sigma.reset();
-    item.calibration_sigma = CalibrationSigma{0.01, 2.0};
+    item.calibration_sigma = StatedCalibration{0.01, 2.0};
   });
   assumed.pose.covariance.picture.setIdentity();
   const ordered_json sigmas = assumed.json()["pose"]["input_sigmas"];
