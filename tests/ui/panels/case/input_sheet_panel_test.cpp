@@ -69,8 +69,25 @@ TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
   dialog.findChild<QGroupBox*>(QStringLiteral("cameraStated"))->setChecked(true);
   focal->setValue(0.05);
   ASSERT_TRUE(dialog.calibrationSigma());
-  EXPECT_NEAR(dialog.calibrationSigma()->focal_relative, 5e-4, 1e-12);
+  EXPECT_NEAR(dialog.calibrationSigma()->focal_relative.value(), 5e-4, 1e-12);
   EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
+}
+
+TEST(InputSigmasDialogTest, UnchangedMember_KeepsItsExactValueAndStaysAssumed) {
+  sessions::SessionCase session_case;
+  session_case.camera.width = session_case.camera.height = 2048;
+  session_case.mesh_scale_sigma = 1.0 / 3000.0;
+  session_case.calibration_sigma = sessions::StatedCalibration{std::nullopt, 1.0 / 3.0};
+  InputSigmasDialog dialog(session_case, nullptr);
+  EXPECT_EQ(dialog.meshScaleSigma(), session_case.mesh_scale_sigma);
+  EXPECT_EQ(dialog.calibrationSigma(), session_case.calibration_sigma);
+  auto* centre = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("principalPoint"));
+  const double shown = centre->value();
+  centre->setValue(0.75);
+  EXPECT_EQ(dialog.calibrationSigma(), (sessions::StatedCalibration{std::nullopt, 0.75}));
+  centre->setValue(shown);
+  dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"))->setValue(0.25);
+  EXPECT_EQ(dialog.calibrationSigma(), (sessions::StatedCalibration{0.0025, 1.0 / 3.0}));
 }
 
 TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
