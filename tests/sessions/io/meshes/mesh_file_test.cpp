@@ -817,6 +817,7 @@ TEST_F(ReadMesh, AsciiPly_NumbersAreReadHoweverTheyAreWritten) {
   expectCube(read("dots.ply", replaced(text, ".000000", ".")));
   expectCube(read("signs.ply", replaced(replaced(text, " 1.0", " +1.0"), ".000000", ".E+00")));
   expectCube(read("fortran.ply", replaced(text, "11.000000", "1.1D+01")));
+  expectCube(read("lengths.ply", replaced(text, "\n4 ", "\n+4 ")));
   PolygonMesh small = cube();
   for (Eigen::Vector3f& vertex : small.vertices) vertex *= 0.5F;
   expectCube(read("half.ply", replaced(replaced(asciiPly(small), " 0.5", " .5"), "-0.5", "-.5")),
