@@ -785,7 +785,14 @@ TEST_F(ReadMesh, ObjFacesAndFurtherLines_AreReadHoweverTheyAreWritten) {
 /// DOS ended texts with Ctrl-Z; some programs fill a file's last block with zeros.
 TEST_F(ReadMesh, TextsPaddedBehindTheirEnd_AreRead) {
   const std::string mark = "\x1a";
+  folder_.write("cube.bin", gltfBuffer(cube()));
+  const std::string json = gltf(cube(), kOneNode, R"("uri":"cube.bin",)");
+  const std::string in_glb = gltf(cube(), kOneNode, "");
   for (const std::string& padding : {mark, mark + "\r\n", std::string(100, '\0'), mark + mark}) {
+    expectCube(read("padded.gltf", json + padding, ""));
+    expectCube(
+        read("padded.glb",
+             glbFile(in_glb + padding, glbChunk(std::string("BIN\0", 4), gltfBuffer(cube()))), ""));
     expectCube(read("padded.stl", asciiStl(cube()) + padding));
     expectCube(read("padded.obj", obj(cube()) + padding));
     const Mesh ply = read("padded.ply", asciiPly(cube()) + padding);
