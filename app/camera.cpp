@@ -51,12 +51,14 @@ void noteEnding(const path& out, CameraModel model) {
 }
 
 /// Of Hs Hc Vs Vc Theta, from which the sigmas are read back; empty, with a note, where one of them
-/// is assumed.
+/// is assumed, or both are 0.
 Eigen::MatrixXd internalCovariance(const Camera& camera, const sessions::StatedCalibration& sigma) {
   if (!sigma.focal_relative || !sigma.principal_point_px) {
     note("a text file cannot state one member of calibration_sigma alone; it is left out");
     return {};
   }
+  if (*sigma.focal_relative == 0.0 && *sigma.principal_point_px == 0.0)
+    note("a text file cannot state a calibration_sigma of 0; it is left out");
   Eigen::VectorXd one_sigma(5);
   one_sigma << *sigma.focal_relative * camera.fx, *sigma.principal_point_px,
       *sigma.focal_relative * camera.fy, *sigma.principal_point_px, 0.0;

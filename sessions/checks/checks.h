@@ -125,6 +125,11 @@ struct CameraFit {
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
                                    const Pose& camera_from_station);
 
+/// Whether focal length and principal point are within the limits, by their fitted changes and the
+/// case's sigmas of the calibration. An empty fit fails each parameter whose sigma is not stated.
+void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
+                     const CheckLimits& limits, std::vector<Check>& checks);
+
 /// Distance of the pose from other references: the case's annotations, its truth, and the other
 /// cameras of its rig (the farthest one).
 void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,

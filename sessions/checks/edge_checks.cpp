@@ -102,7 +102,8 @@ struct AskedChange {
   std::string unit;
 };
 
-/// What a right camera exceeds seldom: 13 % of Gaussian errors. The limit comes on top.
+/// What a right camera exceeds seldom, with Gaussian errors: the focal length in 13 %, the
+/// principal point, which has two axes, in up to 32 %. The limit comes on top.
 constexpr double kSignificant_sigmas = 1.5;
 
 /// A change of this size may be chance.
@@ -130,31 +131,6 @@ Check cameraCheck(const CheckName& name, const std::string& what, const AskedCha
                            asked.unit + "). Errors below " + sentenceNumber(byChance(asked)) + " " +
                            asked.unit + " cannot be seen.",
                        undecided ? kUndecidedRemedy : kCameraRemedy);
-}
-
-void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
-                     const CheckLimits& limits, std::vector<Check>& checks) {
-  const InputSigmas known(session_case);
-  if (!fit) {
-    for (const auto& [name, stated] : {std::pair(kFocal, known.stated.focal_relative),
-                                       std::pair(kCentre, known.stated.principal_point_px)}) {
-      const char* why = "The edges do not determine the camera together with the pose.";
-      checks.push_back(stated ? notAskedCheck(name, why)
-                              : statedCheck(name, false, why, kUndecidedRemedy));
-    }
-    return;
-  }
-  const double percent = 100.0 / session_case.camera.fx;
-  checks.push_back(cameraCheck(
-      kFocal, "focal length changes by ",
-      {percent * fit->focal_px, percent * fit->focal_sigma_px,
-       100.0 * known.calibration.focal_relative, known.stated.focal_relative.has_value(), "%"},
-      limits.focal_percent));
-  checks.push_back(cameraCheck(
-      kCentre, "principal point moves by ",
-      {fit->centre_px.norm(), fit->centreSigma_px(), known.calibration.principal_point_px,
-       known.stated.principal_point_px.has_value(), "px"},
-      limits.centre_px));
 }
 
 /// A requirement in pixels does not limit millimetres, and a wrong camera hardly moves the image.
@@ -298,6 +274,31 @@ Matrix9d clusteredCovariance(const std::vector<Row>& rows, const Solved& solved)
 }
 
 }  // namespace
+
+void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
+                     const CheckLimits& limits, std::vector<Check>& checks) {
+  const InputSigmas known(session_case);
+  if (!fit) {
+    for (const auto& [name, stated] : {std::pair(kFocal, known.stated.focal_relative),
+                                       std::pair(kCentre, known.stated.principal_point_px)}) {
+      const char* why = "The edges do not determine the camera together with the pose.";
+      checks.push_back(stated ? notAskedCheck(name, why)
+                              : statedCheck(name, false, why, kUndecidedRemedy));
+    }
+    return;
+  }
+  const double percent = 100.0 / session_case.camera.fx;
+  checks.push_back(cameraCheck(
+      kFocal, "focal length changes by ",
+      {percent * fit->focal_px, percent * fit->focal_sigma_px,
+       100.0 * known.calibration.focal_relative, known.stated.focal_relative.has_value(), "%"},
+      limits.focal_percent));
+  checks.push_back(cameraCheck(
+      kCentre, "principal point moves by ",
+      {fit->centre_px.norm(), fit->centreSigma_px(), known.calibration.principal_point_px,
+       known.stated.principal_point_px.has_value(), "px"},
+      limits.centre_px));
+}
 
 void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
                    const PredictedEdges& edges, std::vector<Check>& checks) {

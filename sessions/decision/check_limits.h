@@ -81,10 +81,10 @@ struct CheckLimits {
           "direction.");
     limit(self.focal_percent, "check.focal_percent", "%", 0.0, 100.0,
           "Largest significant change of the focal length when estimated from the "
-          "edges; without calibration_sigma also its largest uncertainty.");
+          "edges; where focal_relative is not stated, also the limit of 0.8 sigma.");
     limit(self.centre_px, "check.centre_px", "px", 0.0, 10000.0,
           "Largest significant shift of the principal point when estimated from the "
-          "edges; without calibration_sigma also its largest uncertainty.");
+          "edges; where principal_point_px is not stated, also the limit of 0.8 sigma.");
     limit(self.scale_percent, "check.scale_percent", "%", 0.0, 100.0,
           "Largest significant change of the mesh's scale when estimated from the rig's "
           "baseline.");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -61,12 +62,13 @@ HandedPose readHandedPose(const JsonReader& root) {
 
 Document readDocument(const fs::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes);
-  const JsonDocument strict(file, asText(bytes));
+  const std::string_view text = textOf(file, asText(bytes));
+  const JsonDocument strict(file, text);
   const JsonReader root = strict.root();
   root.requireFormat(kValidatedPoseFormat, kValidatedPoseVersion);
   Document document;
   document.file = file;
-  document.json = ordered_json::parse(asText(bytes));  // keeps the order, as the checksum does
+  document.json = ordered_json::parse(text);  // keeps the order, as the checksum does
   document.session = document.located = readSession(root.at("session"));
   document.pose = readHandedPose(root);
   if (document.session.findCase(document.pose.case_id) == nullptr)

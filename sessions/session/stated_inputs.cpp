@@ -49,6 +49,24 @@ bool isPartlyStated(const StatedCalibration& stated) {
   return stated.focal_relative.has_value() != stated.principal_point_px.has_value();
 }
 
+/// Writes a member only where it changes: other cases keep what the operator did not edit.
+void writeChange(const std::optional<double>& former, const std::optional<double>& value,
+                 std::optional<double>& written) {
+  if (value != former) written = value;
+}
+
+void writeChange(const std::optional<StatedCalibration>& former,
+                 const std::optional<StatedCalibration>& value,
+                 std::optional<StatedCalibration>& written) {
+  const StatedCalibration none;
+  const StatedCalibration& from = former ? *former : none;
+  const StatedCalibration& to = value ? *value : none;
+  StatedCalibration result = written.value_or(none);
+  writeChange(from.focal_relative, to.focal_relative, result.focal_relative);
+  writeChange(from.principal_point_px, to.principal_point_px, result.principal_point_px);
+  written = result == none ? std::nullopt : std::optional(result);
+}
+
 }  // namespace
 
 Session withStated(const Session& session, const std::string& case_id, const StatedInputs& stated) {
@@ -105,8 +123,10 @@ Session withInputSigmas(const Session& session, const std::string& case_id,
   Session next = session;
   for (const auto& session_case : session.cases) {
     SessionCase changed = *session_case;
-    if (sameMeshes(*session_case, *chosen)) changed.mesh_scale_sigma = mesh_scale_sigma;
-    if (session_case->camera == chosen->camera) changed.calibration_sigma = calibration_sigma;
+    if (sameMeshes(*session_case, *chosen))
+      writeChange(chosen->mesh_scale_sigma, mesh_scale_sigma, changed.mesh_scale_sigma);
+    if (session_case->camera == chosen->camera)
+      writeChange(chosen->calibration_sigma, calibration_sigma, changed.calibration_sigma);
     if (!(changed == *session_case)) next = withCase(next, std::move(changed));
   }
   return next;

@@ -43,8 +43,9 @@ std::string calibrationText(const InputSigmas& sigmas);
 /// Where it comes from: "stated", "assumed", "of the camera's covariance", or by member.
 std::string calibrationOrigin(const InputSigmas& sigmas);
 
-/// The same session with these sigmas stated (empty: assumed): the mesh's for all cases of the same
-/// parts as this case, the camera's for all cases of the same camera.
+/// The same session with these sigmas stated for this case (empty: assumed). A member that changes
+/// is also written to the other cases: the mesh's to those of the same parts, the camera's to those
+/// of the same camera.
 Session withInputSigmas(const Session& session, const std::string& case_id,
                         const std::optional<double>& mesh_scale_sigma,
                         const std::optional<StatedCalibration>& calibration_sigma);

@@ -250,6 +250,10 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   folder_.write("left.json", stated.dump());
   EXPECT_THAT(runWhs({"camera", folder_ / "left.json", "--out", text}, 0).err,
               HasSubstr("one member of calibration_sigma alone; it is left out"));
+  stated["calibration_sigma"] = {{"focal_relative", 0.0}, {"principal_point_px", 0.0}};
+  folder_.write("left.json", stated.dump());
+  EXPECT_THAT(runWhs({"camera", folder_ / "left.json", "--out", text}, 0).err,
+              HasSubstr("a calibration_sigma of 0; it is left out"));
   runWhs({"camera", image_.string()}, 2);
   runWhs({"camera", text, "--as", "pinhole", "--out", text}, 2);
 }

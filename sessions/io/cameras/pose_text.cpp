@@ -6,7 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -60,7 +60,26 @@ bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-bool isDigitOrPoint(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; }
+bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool isDigitOrPoint(char c) { return isDigit(c) || c == '.'; }
+
+constexpr auto kBlanks = std::to_array<std::string_view>(
+    {" ", "\t", "\n", "\v", "\f", "\r", "\u00a0", "\u2002", "\u2003", "\u2007", "\u2009", "\u200b",
+     "\u202f", "\u3000", "\ufeff"});
+constexpr auto kOpeningBrackets = std::to_array<std::string_view>({"(", "[", "{", "<"});
+/// Also as printed: hyphens, dashes, the minus sign, plus-minus.
+constexpr auto kSigns = std::to_array<std::string_view>(
+    {"+", "-", "\u00ad", "\u00b1", "\u2010", "\u2011", "\u2012", "\u2013", "\u2014", "\u2015",
+     "\u2212", "\u2213", "\ufe58", "\ufe63", "\uff0b", "\uff0d"});
+
+/// Removes one of these parts from the beginning of a text; false when it begins with none.
+bool takeOneOf(std::span<const std::string_view> parts, std::string_view& text) {
+  const auto part = std::ranges::find_if(
+      parts, [text](std::string_view known) { return text.starts_with(known); });
+  if (part == parts.end()) return false;
+  text.remove_prefix(part->size());
+  return true;
+}
 
 /// Whether a character beyond ASCII that is no blank, such as a printed minus sign, is in front of
 /// a number, which would be read without it.
@@ -68,29 +87,53 @@ bool hasForeignSign(std::string_view text) {
   for (std::size_t i = 1; i < text.size(); ++i) {
     if (text[i - 1] >= 0 || !isDigitOrPoint(text[i])) continue;
     const std::string_view before = text.substr(0, i);
-    const bool blank = std::ranges::any_of(
-        std::initializer_list<const char*>{"\u00a0", "\u2002", "\u2003", "\u2007", "\u2009",
-                                           "\u200b", "\u202f", "\u3000", "\ufeff"},
-        [before](const char* known) { return before.ends_with(known); });
-    if (!blank) return true;
+    if (std::ranges::none_of(kBlanks,
+                             [before](std::string_view known) { return before.ends_with(known); }))
+      return true;
   }
   return false;
 }
 
-/// Whether blanks or semicolons separate numbers with decimal commas: "0,5; 1,25".
+/// Whether blanks, opening brackets or further signs separate a sign from a number, which would be
+/// read without it: "- 3", "-[1 2 3]".
+bool hasSeparateSign(std::string_view text) {
+  bool after_sign = false;
+  bool separate = false;
+  while (!text.empty()) {
+    if (after_sign && separate && isDigitOrPoint(text.front())) return true;
+    if (takeOneOf(kSigns, text)) {
+      separate = after_sign;
+      after_sign = true;
+    } else if (takeOneOf(kBlanks, text) || takeOneOf(kOpeningBrackets, text)) {
+      separate = true;
+    } else {
+      after_sign = separate = false;
+      text.remove_prefix(1);
+    }
+  }
+  return false;
+}
+
+/// Whether a comma is or may be a decimal comma: "0,5; 1,25", "0 0 1 0,2 0 0". A decimal point and
+/// a list without blanks ("1,2,3") show that the text's commas separate numbers.
 bool hasDecimalCommas(std::string_view text) {
   constexpr const char* kPartsOfNumbers = "0123456789,.+-eE";
-  int with_comma = 0;
+  bool found = false;
   while (!text.empty()) {
     text.remove_prefix(std::min(text.find_first_of(kPartsOfNumbers), text.size()));
     const std::string_view word = text.substr(0, text.find_first_not_of(kPartsOfNumbers));
     text.remove_prefix(word.size());
-    const auto commas = std::ranges::count(word, ',');
-    if (commas > 1 || contains(word, ".")) return false;
-    const std::size_t comma = word.find(',');
-    if (commas == 1 && comma > 0 && comma + 1 < word.size()) ++with_comma;
+    int commas = 0;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      const bool after_digit = i > 0 && isDigit(word[i - 1]);
+      const bool before_digit = i + 1 < word.size() && isDigit(word[i + 1]);
+      if (word[i] == '.' && (after_digit || before_digit)) return false;
+      if (word[i] == ',' && after_digit && before_digit) ++commas;
+    }
+    if (commas > 1) return false;
+    found = found || commas == 1;
   }
-  return with_comma > 1;
+  return found;
 }
 
 ParsedPose refused(PoseForm form, std::string problem) {
@@ -218,8 +261,13 @@ ParsedPose parsePose(std::string_view text, const PoseReading& reading) {
     return refused(PoseForm::kMatrix,
                    "A character beyond ASCII is in front of a number: write "
                    "signs and digits in ASCII.");
+  if (hasSeparateSign(text))
+    return refused(PoseForm::kMatrix,
+                   "A sign is separate from its number: write signs directly in front of digits.");
   if (hasDecimalCommas(text))
-    return refused(PoseForm::kMatrix, "The numbers have decimal commas: write decimal points.");
+    return refused(PoseForm::kMatrix,
+                   "The numbers have, or may have, decimal commas: write decimal points, and a "
+                   "blank behind commas that separate numbers.");
   if (!std::all_of(numbers.begin(), numbers.end(), [](double n) { return isFinite(n); }))
     return refused(PoseForm::kMatrix, "Not every number is finite.");
   switch (numbers.size()) {

@@ -61,8 +61,8 @@ struct MeshFiles {
   std::vector<MeshBuffer> buffers;  ///< of glTF, in its order; without those inside the file itself
   std::string sha256;               ///< of the file and its buffers, one after the other
 
-  /// `bytes` without the byte order mark of a text, and without what pads the end of one (all
-  /// formats but PLY, which may be binary). InputError for UTF-16.
+  /// `bytes` without the byte order mark of a PLY or OBJ, and without what pads the end of an OBJ;
+  /// all bytes of the other formats. InputError for UTF-16.
   std::span<const std::uint8_t> content() const;
 };
 

@@ -87,9 +87,9 @@ void keepInEach(Json& object, const char* list, Keys keys) {
   for (Json& gltf : object[list]) gltf = kept(gltf, keys);
 }
 
-std::string geometryJson(std::string_view text) {
-  Json gltf = kept(Json::parse(text), {"asset", "scene", "scenes", "nodes", "meshes", "accessors",
-                                       "bufferViews", "buffers"});
+std::string geometryJson(const std::filesystem::path& file, std::string_view text) {
+  Json gltf = kept(Json::parse(textOf(file, text)), {"asset", "scene", "scenes", "nodes", "meshes",
+                                                     "accessors", "bufferViews", "buffers"});
   keepInEach(gltf, "scenes", {"nodes"});
   keepInEach(gltf, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
   keepInEach(gltf, "meshes", {"primitives"});
@@ -111,15 +111,16 @@ void appendNumber(std::vector<std::uint8_t>& bytes, std::size_t number) {
 
 /// A .gltf or .glb file with its geometry alone: nodes, triangles and where their numbers are.
 /// Importers read, and crash on, the rest (skins, animations, images, extensions), of which nothing
-/// is used. `bytes` passed checkMeshContainer.
-std::vector<std::uint8_t> gltfGeometry(std::span<const std::uint8_t> bytes, MeshFormat format) {
-  if (format == MeshFormat::kGltf) {
-    const std::string text = geometryJson(asText(bytes));
+/// is used. The files passed checkMeshContainer.
+std::vector<std::uint8_t> gltfGeometry(const MeshFiles& files) {
+  const std::span<const std::uint8_t> bytes = files.bytes;
+  if (files.format == MeshFormat::kGltf) {
+    const std::string text = geometryJson(files.file, asText(bytes));
     return {text.begin(), text.end()};
   }
   constexpr std::size_t kHeader = 20;
   const auto old_size = static_cast<std::size_t>(readUnsigned(bytes, 12, 4, false));
-  std::string text = geometryJson(asText(bytes.subspan(kHeader, old_size)));
+  std::string text = geometryJson(files.file, asText(bytes.subspan(kHeader, old_size)));
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const auto rest = bytes.subspan(kHeader + old_size);
   std::vector<std::uint8_t> result(bytes.begin(), bytes.begin() + 8);
@@ -135,7 +136,7 @@ std::vector<std::uint8_t> gltfGeometry(std::span<const std::uint8_t> bytes, Mesh
 /// second half of a PLY header's line end and drops it, which moves all that follows: it gets one
 /// more to drop.
 std::vector<std::uint8_t> rewrittenFor(const MeshFiles& files, const MeshDeclaration& declared) {
-  if (carriesUnit(files.format)) return gltfGeometry(files.bytes, files.format);
+  if (carriesUnit(files.format)) return gltfGeometry(files);
   if (files.format == MeshFormat::kStl) return plainStl(files.file, files.bytes);
   const std::span<const std::uint8_t> content = files.content();
   if (files.format == MeshFormat::kObj) return plainObj(asText(content));

@@ -209,6 +209,7 @@ std::uint64_t PlyValues::count(const PlyElement& element, std::uint64_t item,
   if (!property.isList()) return 1;
   if (encoding_ != PlyEncoding::kAscii) return bits(property.count_type);
   const std::string_view text = word();
+  unusual_numbers_ = unusual_numbers_ || !isUsualNumber(text);
   const auto number = wholeIn<std::uint64_t>(text);
   if (!number || *number > bytes_.size())
     throw InputError(file_, element.name + " " + std::to_string(item),

@@ -272,6 +272,70 @@ TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
   EXPECT_EQ(focalState(), CheckState::kNotApplicable);
 }
 
+/// A fit and a calibration whose sigmas are 0.3 and 0.4 (% or px): 0.5 together. Changes below 0.75
+/// may be chance, and the limits of 1 come on top; 1.25 is the largest sigma that confirms.
+class CameraChecks : public testing::Test {
+ protected:
+  CameraChecks() {
+    session_case_.camera.fx = session_case_.camera.fy = 1000.0;
+    limits_.focal_percent = limits_.centre_px = 1.0;
+  }
+  /// States of both checks for a change and a sigma of each parameter, % and px.
+  std::vector<CheckState> states(double change, double sigma) const {
+    CameraFit fit;
+    fit.focal_px = 10.0 * change;
+    fit.focal_sigma_px = 10.0 * sigma;
+    fit.centre_px = {0.6 * change, -0.8 * change};
+    fit.centre_covariance_px2 = sigma * sigma * Eigen::Matrix2d::Identity();
+    const auto checks =
+        test::addedChecks(addCameraChecks, std::optional(fit), session_case_, limits_);
+    return {findCheck(checks, "camera_focal").state, findCheck(checks, "camera_centre").state};
+  }
+
+  SessionCase session_case_;
+  CheckLimits limits_;
+  const std::vector<CheckState> passed_ = {CheckState::kPassed, CheckState::kPassed};
+  const std::vector<CheckState> failed_ = {CheckState::kFailed, CheckState::kFailed};
+};
+
+TEST_F(CameraChecks, ChangeMayExceedTheLimitByOneAndAHalfSigmas) {
+  session_case_.calibration_sigma = StatedCalibration{0.004, 0.4};
+  EXPECT_EQ(states(1.74, 0.3), passed_);
+  EXPECT_EQ(states(-1.74, 0.3), passed_);
+  EXPECT_EQ(states(1.76, 0.3), failed_);
+  EXPECT_EQ(states(-1.76, 0.3), failed_);
+}
+
+TEST_F(CameraChecks, ParameterThatIsNotStated_IsConfirmedBySigmasWithinTheLimit) {
+  const CheckState good = CheckState::kPassed;
+  const CheckState bad = CheckState::kFailed;
+  EXPECT_EQ(states(0.0, 1.24), passed_);
+  EXPECT_EQ(states(0.0, 1.26), failed_);
+  session_case_.calibration_sigma = StatedCalibration{0.004, std::nullopt};
+  EXPECT_EQ(states(0.0, 1.24), passed_);
+  EXPECT_EQ(states(0.0, 1.26), (std::vector{good, bad}));
+  session_case_.calibration_sigma = StatedCalibration{std::nullopt, 0.4};
+  EXPECT_EQ(states(0.0, 1.24), passed_);
+  EXPECT_EQ(states(0.0, 1.26), (std::vector{bad, good}));
+  session_case_.calibration_sigma = StatedCalibration{0.004, 0.4};
+  EXPECT_EQ(states(0.0, 1.26), passed_);
+}
+
+TEST_F(CameraChecks, CameraThatIsNotDetermined_FailsWhereItIsNotStated) {
+  const auto state = [this](const char* id) {
+    return findCheck(test::addedChecks(addCameraChecks, std::optional<CameraFit>(), session_case_,
+                                       limits_),
+                     id)
+        .state;
+  };
+  session_case_.calibration_sigma = StatedCalibration{0.004, std::nullopt};
+  EXPECT_EQ(state("camera_focal"), CheckState::kNotApplicable);
+  EXPECT_EQ(state("camera_centre"), CheckState::kFailed);
+  session_case_.calibration_sigma = StatedCalibration{std::nullopt, 0.4};
+  EXPECT_EQ(state("camera_focal"), CheckState::kFailed);
+  EXPECT_EQ(state("camera_centre"), CheckState::kNotApplicable);
+}
+
 TEST_F(EdgeChecks, CameraThatTheEdgesDoNotDetermine_FailsUnlessItsCalibrationIsStated) {
   ReviewSubject subject = this->subject();
   const auto black = copyOf(*subject.loaded);

@@ -365,6 +365,12 @@ TEST_F(ValidatedPose, ChecksumOf1_0_HasItsFormerName) {
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, false)), StartsWith("checksum: "));
 }
 
+TEST_F(ValidatedPose, TextPaddedBehindItsEnd_Verifies) {
+  const fs::path file = writeValidated();
+  std::ofstream(file, std::ios::app | std::ios::binary) << "\x1a\r\n";
+  EXPECT_TRUE(sessions::verifyPose(file, false).good());
+}
+
 /// Everything that follows from the covariance is made to follow.
 TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
   const fs::path file = writeValidated();

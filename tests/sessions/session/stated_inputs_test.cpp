@@ -53,5 +53,24 @@ TEST(StatedInputs, LoopIsRefused) {
   EXPECT_THROW((void)withStated(oneCase(), "a", stated), InputError);
 }
 
+TEST(InputSigmas, OnlyAChangedMemberIsWrittenToOtherCases) {
+  Session session = oneCase();
+  SessionCase other = *session.cases[0];
+  other.id = "b";
+  other.mesh_scale_sigma = 1e-3;
+  other.calibration_sigma = StatedCalibration{std::nullopt, 0.7};
+  session.cases.push_back(other);
+  EXPECT_TRUE(withInputSigmas(session, "a", {}, {}) == session);
+  const Session focal = withInputSigmas(session, "a", {}, StatedCalibration{1e-3, std::nullopt});
+  EXPECT_EQ(focal.cases[0]->calibration_sigma, (StatedCalibration{1e-3, std::nullopt}));
+  EXPECT_EQ(focal.cases[1]->calibration_sigma, (StatedCalibration{1e-3, 0.7}));
+  EXPECT_EQ(focal.cases[1]->mesh_scale_sigma, 1e-3);
+  EXPECT_TRUE(withInputSigmas(focal, "a", {}, {}) == session);
+  const Session scale = withInputSigmas(session, "a", 2e-3, {});
+  EXPECT_EQ(scale.cases[1]->mesh_scale_sigma, 2e-3);
+  EXPECT_EQ(scale.cases[1]->calibration_sigma, other.calibration_sigma);
+  EXPECT_FALSE(withInputSigmas(scale, "b", 2e-3, {}).cases[0]->calibration_sigma);
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -5,7 +5,6 @@
 
 #include <QtWidgets>
 
-#include "sessions/session/stated_inputs.h"
 #include "ui/models/rows_model.h"
 #include "ui/widgets/widgets.h"
 
@@ -17,46 +16,47 @@ constexpr double kPercent = 100.0;
 }  // namespace
 
 InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent)
-    : QDialog(parent) {
+    : QDialog(parent), former_(one), former_calibration_(one.calibration_sigma) {
   ui_.setupUi(this);
-  const sessions::InputSigmas sigmas(one);
   const auto show = [](QDoubleSpinBox* box, double value, double maximum) {
     box->setMaximum(maximum);
     box->setValue(value);
+    return box->value();
   };
-  ui_.meshStated->setChecked(sigmas.mesh_scale_stated);
-  ui_.cameraStated->setChecked(sigmas.stated != sessions::StatedCalibration());
-  by_covariance_ = sigmas.calibration_derived;
-  former_calibration_ = one.calibration_sigma;
+  ui_.meshStated->setChecked(former_.mesh_scale_stated);
+  ui_.cameraStated->setChecked(former_.stated != sessions::StatedCalibration());
   for (QWidget* field :
        std::initializer_list<QWidget*>{ui_.cameraStated, ui_.focal, ui_.principalPoint}) {
-    if (!by_covariance_) break;
+    if (!former_.calibration_derived) break;
     field->setEnabled(false);
     field->setToolTip(tr("The camera's covariance counts in place of these"));
   }
-  show(ui_.meshScale, kPercent * sigmas.mesh_scale, kPercent * sessions::kMaxScaleSigma);
-  show(ui_.focal, kPercent * sigmas.calibration.focal_relative,
-       kPercent * sessions::kMaxFocalSigma);
-  show(ui_.principalPoint, sigmas.calibration.principal_point_px,
-       sessions::kMaxPrincipalPointSigma_px);
-  shown_focal_ = ui_.focal->value();
-  shown_centre_px_ = ui_.principalPoint->value();
+  shown_mesh_scale_ =
+      show(ui_.meshScale, kPercent * former_.mesh_scale, kPercent * sessions::kMaxScaleSigma);
+  shown_focal_ = show(ui_.focal, kPercent * former_.calibration.focal_relative,
+                      kPercent * sessions::kMaxFocalSigma);
+  shown_centre_px_ = show(ui_.principalPoint, former_.calibration.principal_point_px,
+                          sessions::kMaxPrincipalPointSigma_px);
 }
 
 std::optional<double> InputSigmasDialog::meshScaleSigma() const {
   if (!ui_.meshStated->isChecked()) return std::nullopt;
-  return ui_.meshScale->value() / kPercent;
+  const double shown = ui_.meshScale->value();
+  return shown == shown_mesh_scale_ ? former_.mesh_scale : shown / kPercent;
 }
 
-/// A value that is left as it was shown keeps its origin.
+/// A member whose box is unchanged keeps its exact value. It also stays assumed, unless neither
+/// member was stated: checking the group then states both.
 std::optional<sessions::StatedCalibration> InputSigmasDialog::calibrationSigma() const {
-  if (by_covariance_) return former_calibration_;
+  if (former_.calibration_derived) return former_calibration_;
   if (!ui_.cameraStated->isChecked()) return std::nullopt;
+  sessions::StatedCalibration stated = former_calibration_.value_or(sessions::StatedCalibration{
+      former_.calibration.focal_relative, former_.calibration.principal_point_px});
   const double focal = ui_.focal->value();
   const double centre_px = ui_.principalPoint->value();
-  if (former_calibration_ && focal == shown_focal_ && centre_px == shown_centre_px_)
-    return former_calibration_;
-  return sessions::StatedCalibration{focal / kPercent, centre_px};
+  if (focal != shown_focal_) stated.focal_relative = focal / kPercent;
+  if (centre_px != shown_centre_px_) stated.principal_point_px = centre_px;
+  return stated;
 }
 
 JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)

@@ -12,6 +12,7 @@
 
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/session.h"
+#include "sessions/session/stated_inputs.h"
 
 namespace boresight::ui {
 
@@ -28,9 +29,11 @@ class InputSigmasDialog : public QDialog {
 
  private:
   Ui::InputSigmasDialog ui_;
-  bool by_covariance_ = false;  ///< the camera's covariance is used
+  sessions::InputSigmas former_;
   std::optional<sessions::StatedCalibration> former_calibration_;
-  double shown_focal_ = 0.0;  ///< percent, as rounded for display
+  /// As rounded for display: percent, percent, px.
+  double shown_mesh_scale_ = 0.0;
+  double shown_focal_ = 0.0;
   double shown_centre_px_ = 0.0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/cameras/pose_text.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -99,10 +100,18 @@ TEST(ParsePose, SignsAndCommasOfOtherTexts_AreNamed) {
               "A character beyond ASCII is in front of a number: write signs and digits in ASCII.")
         << text;
   for (const char* text :
-       {"0,5; 0,25; 0; 0; 0; 1,5", "0,5 0,25 0,1 0,0 0,0 1,5", "[0,5] [0,25] 0 0 0 1"})
-    EXPECT_EQ(problem(text), "The numbers have decimal commas: write decimal points.") << text;
+       {"0 0 0 1 2 - 3", "0 0 0 1 2 \u2212 3", "0 0 0 1 2 -\u00a03", "0 0 0 t = - [1 2 3]",
+        "0 0 0 \u2212[1 2 3]", "0 0 0 -\n( .1 2 3", "0 0 0 1 2 -+3", "0 0 0 1 2 - -3"})
+    EXPECT_EQ(problem(text),
+              "A sign is separate from its number: write signs directly in front of digits.")
+        << text;
+  for (const char* text :
+       {"0,5; 0,25; 0; 0; 0; 1,5", "0,5 0,25 0,1 0,0 0,0 1,5", "[0,5] [0,25] 0 0 0 1",
+        "0 0 1 0,2 0 0", "0, 0, 1, 0,2, 0, 0", "Pose. 0 0 1 0,2 0 0"})
+    EXPECT_THAT(problem(text), testing::HasSubstr("decimal commas: write decimal points")) << text;
   for (const char* text :
        {"1,2,3,4,5,6", "1, 2, 3; 4, 5, 6", "1,2,3 4,5,6", "1.5, 2,\u00a03 4\u202f5 6",
+        "1,-2 3e-1 4 5 6", "0.5,1 2 3 4 5", "x-axis - y_axis: 1 2 3 4 5 6",
         "rotation_vector_deg [1,2,3] translation_mm [4,5,6]", "1\u00b0, 2\u00b0, 3\u00b0 4 5 6"})
     EXPECT_EQ(problem(text), "") << text;
 }

@@ -785,7 +785,14 @@ TEST_F(ReadMesh, ObjFacesAndFurtherLines_AreReadHoweverTheyAreWritten) {
 /// DOS ended texts with Ctrl-Z; some programs fill a file's last block with zeros.
 TEST_F(ReadMesh, TextsPaddedBehindTheirEnd_AreRead) {
   const std::string mark = "\x1a";
+  folder_.write("cube.bin", gltfBuffer(cube()));
+  const std::string json = gltf(cube(), kOneNode, R"("uri":"cube.bin",)");
+  const std::string in_glb = gltf(cube(), kOneNode, "");
   for (const std::string& padding : {mark, mark + "\r\n", std::string(100, '\0'), mark + mark}) {
+    expectCube(read("padded.gltf", json + padding, ""));
+    expectCube(
+        read("padded.glb",
+             glbFile(in_glb + padding, glbChunk(std::string("BIN\0", 4), gltfBuffer(cube()))), ""));
     expectCube(read("padded.stl", asciiStl(cube()) + padding));
     expectCube(read("padded.obj", obj(cube()) + padding));
     const Mesh ply = read("padded.ply", asciiPly(cube()) + padding);
@@ -817,6 +824,7 @@ TEST_F(ReadMesh, AsciiPly_NumbersAreReadHoweverTheyAreWritten) {
   expectCube(read("dots.ply", replaced(text, ".000000", ".")));
   expectCube(read("signs.ply", replaced(replaced(text, " 1.0", " +1.0"), ".000000", ".E+00")));
   expectCube(read("fortran.ply", replaced(text, "11.000000", "1.1D+01")));
+  expectCube(read("lengths.ply", replaced(text, "\n4 ", "\n+4 ")));
   PolygonMesh small = cube();
   for (Eigen::Vector3f& vertex : small.vertices) vertex *= 0.5F;
   expectCube(read("half.ply", replaced(replaced(asciiPly(small), " 0.5", " .5"), "-0.5", "-.5")),

@@ -73,6 +73,23 @@ TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
   EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
 }
 
+TEST(InputSigmasDialogTest, UnchangedMember_KeepsItsExactValueAndStaysAssumed) {
+  sessions::SessionCase session_case;
+  session_case.camera.width = session_case.camera.height = 2048;
+  session_case.mesh_scale_sigma = 1.0 / 3000.0;
+  session_case.calibration_sigma = sessions::StatedCalibration{std::nullopt, 1.0 / 3.0};
+  InputSigmasDialog dialog(session_case, nullptr);
+  EXPECT_EQ(dialog.meshScaleSigma(), session_case.mesh_scale_sigma);
+  EXPECT_EQ(dialog.calibrationSigma(), session_case.calibration_sigma);
+  auto* centre = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("principalPoint"));
+  const double shown = centre->value();
+  centre->setValue(0.75);
+  EXPECT_EQ(dialog.calibrationSigma(), (sessions::StatedCalibration{std::nullopt, 0.75}));
+  centre->setValue(shown);
+  dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"))->setValue(0.25);
+  EXPECT_EQ(dialog.calibrationSigma(), (sessions::StatedCalibration{0.0025, 1.0 / 3.0}));
+}
+
 TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
   sessions::SessionCase session_case;
   session_case.requirement.emplace().projection_px = 5.0;
