@@ -2,7 +2,7 @@
 // A person at work, for the test that kills them: scripted_edits SESSION SEED opens the session in
 // the whole window, takes what an earlier one left, and then edits, undoes, runs and saves without
 // end. After each action, when it is in the journal and drawn, it prints the SHA-256 of the session
-// that the window shows, and the number of edits in the journal.
+// that the window shows, and the number of edits in the journal; before it undoes: "undo".
 #include <cstdio>
 #include <filesystem>
 
@@ -25,7 +25,7 @@ class Operator {
   /// One action of a person; false when there was nothing to do.
   bool act() {
     const auto choice = random_.below(15);
-    if (choice == 0) return window_.document().undo();
+    if (choice == 0) return undo();
     if (choice == 1) return window_.document().redo();
     if (choice == 2) return window_.document().save();
     if (choice == 3) return changeOptions();
@@ -51,6 +51,12 @@ class Operator {
   }
 
  private:
+  bool undo() {
+    std::printf("undo\n");
+    std::fflush(stdout);
+    return window_.document().undo();
+  }
+
   const sessions::SessionCase& shownCase() {
     return *window_.document().session().findCase(window_.cases().caseId().toStdString());
   }
