@@ -9,6 +9,7 @@
 #include "sessions/baselines/method_options.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_lock.h"
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/run/runner.h"
 #include "sessions/text/plain_text.h"
@@ -291,9 +292,16 @@ void sayNotices(const sessions::SessionDocument& document) {
   for (const std::string& text : document.notices()) note(text);
 }
 
-[[noreturn]] void failForEdits(const sessions::SessionDocument& document, const char* remedy) {
+[[noreturn]] void failForEdits(const sessions::SessionDocument& document) {
+  const std::size_t edits = document.recovery()->edits.size();
+  const auto holder = sessions::readLockFile(sessions::lockFileOf(document.file()));
+  const bool open = document.readOnly() && holder && !sessions::hasEnded(*holder);
   throw sessions::InputError(
-      document.file(), std::to_string(document.recovery()->edits.size()) + " edits " + remedy);
+      document.file(),
+      sessions::countText(edits, "edit") + (edits == 1 ? " was" : " were") +
+          (open ? " not saved yet: save the session in the program that has it open"
+                : " never saved: recover with `whs decide --recover` or `whs run --recover`, or in "
+                  "the desktop program"));
 }
 
 }  // namespace
@@ -301,18 +309,20 @@ void sayNotices(const sessions::SessionDocument& document) {
 sessions::SessionDocument openToRead(const std::string& file) {
   auto document = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
   sayNotices(document);
-  if (document.recovery()) failForEdits(document, "are not saved yet; save the session first");
+  if (document.recovery()) failForEdits(document);
   return document;
 }
 
-sessions::SessionDocument openToEdit(const std::string& file, bool recover) {
-  auto document = sessions::SessionDocument::open(file);
+sessions::SessionDocument openToEdit(const std::string& file, bool recover,
+                                     sessions::Access access) {
+  auto document = sessions::SessionDocument::open(file, access);
   if (document.readOnly()) throw sessions::OutputError(document.file(), document.readOnlyReason());
   sayNotices(document);
-  if (document.recovery() && !recover)
-    failForEdits(document,
-                 "were never saved; recover them with --recover or in the desktop program");
+  if (!document.recovery()) return document;
+  if (!recover) failForEdits(document);
+  const std::vector<std::string> edits = document.recovery()->edits;
   document.acceptRecovery();
+  for (const std::string& edit : edits) note("recovered edit: " + edit);
   return document;
 }
 

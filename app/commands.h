@@ -158,9 +158,11 @@ struct DatasetArguments {
 /// edits to be recovered.
 sessions::SessionDocument openToRead(const std::string& file);
 
-/// Opens a session to be changed. InputError as above unless `recover` accepts these edits;
-/// OutputError when another program has the session open or it cannot be written.
-sessions::SessionDocument openToEdit(const std::string& file, bool recover = false);
+/// Opens a session to be changed. InputError as above unless `recover` accepts these edits, which
+/// are then printed to stderr; OutputError when another program has the session open or it cannot
+/// be written.
+sessions::SessionDocument openToEdit(const std::string& file, bool recover,
+                                     sessions::Access access = sessions::Access::kEdit);
 
 /// InputError when the session has no such case.
 const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,

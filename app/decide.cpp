@@ -95,7 +95,9 @@ std::optional<Session> decided(const Session& session, const DecideArguments& ar
 int decide(const DecideArguments& arguments) {
   if (!arguments.waivers.empty() && !arguments.validate)
     throw CLI::ValidationError("--waive", "needs --validate: no other decision waives a check");
-  sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
+  // A decision that cannot be saved leaves nothing that another operator could recover.
+  sessions::SessionDocument document =
+      openToEdit(arguments.session, arguments.recover, sessions::Access::kEditAndSave);
   (void)requireCase(document, arguments.case_id);
   std::stop_source stop;
   const InterruptWatch watch(stop);

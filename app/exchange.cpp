@@ -120,7 +120,8 @@ int exportFrom(const ExportArguments& arguments) {
 }
 
 int importInto(const ImportArguments& arguments) {
-  sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
+  sessions::SessionDocument document =
+      openToEdit(arguments.session, arguments.recover, sessions::Access::kEditAndSave);
   const sessions::Session& session = document.session();
   for (const std::string& id : arguments.cases) (void)requireCase(document, id);
   sessions::ImportReport report;

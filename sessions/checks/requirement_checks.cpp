@@ -185,10 +185,10 @@ std::string inputsText(const ReviewSubject& subject, const PrecisionFigure& figu
       std::sqrt(std::max(0.0, *figure.found * *figure.found - *figure.by_image * *figure.by_image));
   std::string text = "The image alone gives " + sentenceNumber(*figure.by_image) + " " +
                      figure.unit + "; the pose is limited by the mesh's scale";
-  if (subject.loaded == nullptr) return text + " and the camera's calibration allow.";
+  if (subject.loaded == nullptr) return text + " and the camera's calibration.";
   const InputSigmas known(subject.loaded->source);
   return text + " (" + meshScaleText(known) + ") and the camera's calibration (" +
-         calibrationText(known) + ") allow: " + sentenceNumber(inputs) + " " + figure.unit + ".";
+         calibrationText(known) + "): " + sentenceNumber(inputs) + " " + figure.unit + ".";
 }
 
 Check precisionCheck(const ReviewSubject& subject, const PrecisionFigure& figure,

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "sessions/checks/generalized_eigen.h"
 #include "sessions/decision/check.h"
@@ -46,22 +49,42 @@ bool cameToPose(const IterationTrace& iteration) {
          iteration.status == LocalizationStatus::kConverged;
 }
 
-/// Of the last attempt, those iterations that came to a pose.
-std::vector<const IterationTrace*> lastAttempt(const LocalizationTrace& run) {
-  std::vector<const IterationTrace*> found;
-  for (const auto& item : run.iterations) {
-    if (!found.empty() && found.back()->attempt != item->attempt) found.clear();
-    if (cameToPose(*item)) found.push_back(item.get());
-  }
-  return found;
+/// Whether an attempt that ends with `iteration` is repeated from its last pose by `repeated`.
+bool isRepeatedBy(const IterationTrace& iteration, const IterationTrace& repeated) {
+  return iteration.attempt != repeated.attempt && iteration.kind == repeated.kind &&
+         iteration.level == repeated.level &&
+         iteration.camera_from_station_before == repeated.camera_from_station_before;
+}
+
+using Iterations = std::vector<std::shared_ptr<const IterationTrace>>;
+
+/// The iterations of the attempt that led to the pose: the last one. A run that compares
+/// hypotheses ends with the last iteration of the best one repeated: then the attempt of that
+/// hypothesis.
+Iterations decisiveAttempt(const LocalizationTrace& run) {
+  if (run.iterations.empty()) return {};
+  const auto attemptOf = [&run](std::int32_t attempt) {
+    Iterations found;
+    std::ranges::copy_if(run.iterations, std::back_inserter(found),
+                         [=](const auto& item) { return item->attempt == attempt; });
+    return found;
+  };
+  const Iterations last = attemptOf(run.iterations.back()->attempt);
+  if (run.hypotheses.empty()) return last;
+  const auto original = std::find_if(
+      run.iterations.rbegin(), run.iterations.rend(),
+      [&](const auto& item) { return cameToPose(*item) && isRepeatedBy(*item, *last.front()); });
+  return original == run.iterations.rend() ? last : attemptOf((*original)->attempt);
 }
 
 Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) {
-  const auto iterations = lastAttempt(run);
-  if (iterations.size() < 2)
-    return notAskedCheck(kCorrections, "Fewer than two iterations have a pose.");
-  if (run.iterations.back().get() != iterations.back())
+  Iterations iterations = decisiveAttempt(run);
+  if (!iterations.empty() && !cameToPose(*iterations.back()))
     return notAskedCheck(kCorrections, "The last iteration has no pose.");
+  std::erase_if(iterations, [](const auto& item) { return !cameToPose(*item); });
+  if (iterations.size() < 2)
+    return notAskedCheck(kCorrections,
+                         "Fewer than two iterations of the attempt that led to the pose have one.");
   const double first_px = iterations.front()->correction_image_px;
   const double last_px = iterations.back()->correction_image_px;
   const std::string found = "The first iteration moved the station by " + sentenceNumber(first_px) +
@@ -71,9 +94,9 @@ Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) 
                        "The pose has not settled: run more iterations, or check the last matches.");
 }
 
-const IterationTrace* lastMatching(const LocalizationTrace& run) {
+const IterationTrace* lastMatching(const Iterations& iterations) {
   const IterationTrace* found = nullptr;
-  for (const auto& item : run.iterations)
+  for (const auto& item : iterations)
     if (item->kind == IterationKind::kMatch && item->reached > Stage::kRender) found = item.get();
   return found;
 }
@@ -172,10 +195,11 @@ Check marginCheck(const IterationTrace& iteration, const CheckLimits& limits) {
 
 void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
                        std::vector<Check>& checks) {
-  const IterationTrace* iteration = lastMatching(run);
+  const Iterations iterations = decisiveAttempt(run);
+  const IterationTrace* iteration = lastMatching(iterations);
   if (iteration == nullptr)
     return addNotAsked({kCount, kRatio, kSpread, kDepth, kBorder, kMargin},
-                       "The run has no matching iteration.", checks);
+                       "The attempt that led to the pose has no matching iteration.", checks);
   addCounts(*iteration, limits, checks);
   const InlierPlaces places = inlierPlaces(*iteration);
   checks.push_back(spreadCheck(places, limits));

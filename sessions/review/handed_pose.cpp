@@ -271,11 +271,12 @@ std::string checksDifference(const HandedPose& stated, const std::vector<Check>&
 }
 
 std::vector<std::string> rewordedChecks(const HandedPose& stated,
-                                        const std::vector<Check>& measured) {
+                                        const std::vector<Check>& measured, bool with_convergence) {
   std::vector<std::string> titles;
   for (const Check& check : measured)
     if (const Check* found = findStated(stated, check.id);
-        found != nullptr && (found->title != check.title || found->sentence != check.sentence))
+        found != nullptr && (with_convergence || !isConvergenceCheck(check.id)) &&
+        (found->title != check.title || found->sentence != check.sentence))
       titles.push_back(check.title);
   return titles;
 }

@@ -88,9 +88,10 @@ std::string covarianceDifference(const HandedPose& stated, const PoseCovariance&
 /// `with_convergence` false leaves the checks of the convergence test out.
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
                              bool with_convergence);
-/// Titles of the checks whose title or sentence is another: of another version, or edited.
+/// Titles of the checks whose title or sentence is another: of another version, or edited. Without
+/// `with_convergence` as above.
 std::vector<std::string> rewordedChecks(const HandedPose& stated,
-                                        const std::vector<Check>& measured);
+                                        const std::vector<Check>& measured, bool with_convergence);
 /// InputError unless `difference` is empty.
 void requireAsMeasured(const std::string& case_id, const std::string& difference);
 

@@ -243,8 +243,8 @@ void listNotProved(const Document& document, const std::optional<MeasuredPose>& 
                    bool with_convergence, bool with_keys, std::vector<std::string>& list) {
   if (!measured) list.emplace_back("run, pose, covariance and checks: not measured");
   list.push_back("written: " + writtenText(document));
-  const auto reworded =
-      measured ? rewordedChecks(document.pose, measured->checks) : std::vector<std::string>();
+  const auto reworded = measured ? rewordedChecks(document.pose, measured->checks, with_convergence)
+                                 : std::vector<std::string>();
   if (!reworded.empty())
     list.push_back("wording: this version words other titles or sentences for " + joined(reworded));
   const Decision* decision = reviewStatusOf(document.session, document.pose.case_id).decision;

@@ -220,6 +220,13 @@ void acceptFrames(SessionCase& session_case) {
   if (of_frames) end_effector = endEffectorOfFrames(session_case);
 }
 
+/// Requires the files of the transforms as they were read.
+void requireKnownFrames(const SessionCase& session_case) {
+  for (const FrameTransform& known : session_case.frames)
+    if (known.file.is_absolute())
+      requireKnown(known.file, "its bytes", inputSha256(known.file), known.file_sha256);
+}
+
 }  // namespace
 
 std::vector<Finding> checkInputs(const Session& session, const std::stop_token& stop) {
@@ -331,6 +338,7 @@ GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_
 }
 
 SceneMesh readKnownScene(const SessionCase& session_case) {
+  requireKnownFrames(session_case);
   const auto check = [&session_case](std::size_t part, const std::string& sha256) {
     const MeshInput& input = session_case.parts[part];
     requireKnown(input.source.mesh, "its bytes", sha256, input.sha256);

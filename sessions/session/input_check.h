@@ -62,7 +62,7 @@ Session withAccepted(const Session& session, const SessionCase& before,
 GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit);
 
 /// Reads the meshes of a case that are in use. InputError, also for files that differ from those of
-/// the session: they are not parsed.
+/// the session, which are not parsed: meshes, and files of frames.
 SceneMesh readKnownScene(const SessionCase& session_case);
 
 /// The mask image of a case, all false without one. InputError when it cannot be read, has another

@@ -120,7 +120,8 @@ SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
   // No lock file without a session file.
   (void)readBeginning(document.file_, 1);
-  if (access == Access::kEdit)
+  document.journals_ = access == Access::kEdit;
+  if (access != Access::kReadOnly)
     document.takeLock();
   else
     document.read_only_reason_ = "it was opened for reading only";
@@ -243,7 +244,8 @@ void SessionDocument::acceptRecovery() {
   if (!recovery_) return;
   if (readOnly()) throw OutputError(file_, read_only_reason_);
   if (!recovery_->damage.empty()) keepDamagedJournal();
-  addToJournal(recovery_->session, "Recover " + countText(recovery_->edits.size(), "edit"));
+  addToJournal(recovery_->session, "Recover " + countText(recovery_->edits.size(), "edit") + ": " +
+                                       joined(recovery_->edits));
   session_ = std::move(recovery_->session);
   recovery_.reset();
   logEvent(LogLevel::kInfo,
@@ -263,7 +265,7 @@ void SessionDocument::apply(const Session& next, const std::string& text) {
   if (wanted == session_) return;
   addToJournal(wanted, text);
   session_ = std::move(wanted);  // cannot fail: the edit is in the journal
-  if (session_ == saved_) dropJournal();
+  if (journals_ && session_ == saved_) dropJournal();
 }
 
 /// Another program has removed the journal: with all edits since the file was saved.
@@ -286,6 +288,7 @@ void SessionDocument::dropJournal() {
 void SessionDocument::addToJournal(const Session& next, const std::string& text) {
   const fs::path journal = journalFileOf(file_);
   const std::string change = changeText(session_, next, journal);
+  if (!journals_) return;
   std::error_code error;
   if (journal_ && !fs::exists(journal, error) && !error) writeJournalAgain();
   JournalWriter writer = journal_.value_or(JournalWriter(journal, file_sha256_));

@@ -15,13 +15,15 @@
 
 namespace boresight::sessions {
 
-enum class Access { kEdit, kReadOnly };
+/// kEditAndSave: edits are not written to the journal. When save() fails, the session file and a
+/// journal of recovered edits are as they were before the document was opened.
+enum class Access { kEdit, kEditAndSave, kReadOnly };
 
 /// An open session: its value, its file, and its journal and lock. An edit is on the disk before
-/// `apply` returns; views show session(). Not thread-safe.
+/// `apply` returns, except with kEditAndSave; views show session(). Not thread-safe.
 class SessionDocument {
  public:
-  /// Opens a session file. With kEdit the lock is taken; when that fails (another program has it,
+  /// Opens a session file. To edit it the lock is taken; when that fails (another program has it,
   /// the folder is read-only) the document opens read-only with a reason. InputError when the file
   /// is not a session.
   static SessionDocument open(const std::filesystem::path& file, Access access = Access::kEdit);
@@ -79,7 +81,7 @@ class SessionDocument {
   void requireEditable() const;
   void writeJournalAgain();
   void dropJournal();
-  /// Writes an edit from session_ to `next` to the journal.
+  /// Writes an edit from session_ to `next` to the journal; with kEditAndSave only checks it.
   void addToJournal(const Session& next, const std::string& text);
 
   std::filesystem::path file_;
@@ -88,6 +90,7 @@ class SessionDocument {
   Session session_;
   Session saved_;
   std::unique_ptr<FileLock> lock_;
+  bool journals_ = true;                  ///< false with kEditAndSave
   std::optional<JournalWriter> journal_;  ///< empty while there are no edits
   std::optional<Recovery> recovery_;
   std::string read_only_reason_;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // whs check, decide, export --pose, verify and report: from a run to a pose that is handed over.
+#include <filesystem>
 #include <memory>
 #include <regex>
 
+#include "sessions/session/session_document.h"
 #include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/matchers.h"
@@ -38,6 +40,35 @@ class ReviewCommands : public ::testing::Test {
   const std::string session_ = folder_ / "s.boresight.json";
 };
 std::unique_ptr<TemporaryFolder> ReviewCommands::made_;
+
+/// Whs where no file may be longer than 8 blocks: a journal of an edit is shorter, a session
+/// longer.
+ProgramRun runWithoutSpace(const Arguments& arguments) {
+  return runProgram("trap '' XFSZ; ulimit -f 8; " BORESIGHT_WHS, arguments);
+}
+
+TEST_F(ReviewCommands, DecisionThatCannotBeSaved_IsNotLeftToBeRecovered) {
+  const std::string journal = sessions::journalFileOf(session_);
+  const std::string before = folder_.read("s.boresight.json");
+  const ProgramRun failed = runWithoutSpace(deciding({"--reject"}));
+  EXPECT_EQ(failed.exit_code, 3) << failed.err;
+  EXPECT_THAT(failed.err, HasSubstr("cannot write"));
+  EXPECT_EQ(folder_.read("s.boresight.json"), before);
+  EXPECT_FALSE(std::filesystem::exists(journal));
+
+  {
+    auto document = sessions::SessionDocument::open(session_);
+    sessions::Session next = document.session();
+    next.view.case_id = kOsCase;
+    document.apply(next, "Look at it");
+  }
+  const std::string left = folder_.read("s.boresight.journal");
+  EXPECT_EQ(runWithoutSpace(deciding({"--reject", "--recover"})).exit_code, 3);
+  EXPECT_EQ(folder_.read("s.boresight.journal"), left);
+  EXPECT_THAT(runWhs(deciding({"--reject", "--recover"}), 0).err,
+              HasSubstr("recovered edit: Look at it\n"));
+  EXPECT_FALSE(std::filesystem::exists(journal));
+}
 
 TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
   runWhs({"check", session_, "--case", kOsCase, "--convergence-test", "0"}, 0);

@@ -333,8 +333,9 @@ TEST(WhsRun, RefusesWhatItMustNotTouch) {
     next.view.case_id = next.cases[0]->id;
     document.apply(next, "Look at it");
   }
-  EXPECT_THAT(runWhs({"run", file}, 3).err, HasSubstr("1 edits were never saved"));
-  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 unsaved edits are in its journal"));
+  EXPECT_THAT(runWhs({"run", file}, 3).err, HasSubstr("1 edit was never saved"));
+  EXPECT_THAT(runWhs({"check", file}, 3).err, HasSubstr("recover with `whs decide --recover`"));
+  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 unsaved edit is in its journal"));
   runWhs({"pack", file, "--out", folder / "p.zip"}, 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "p.zip"));
 }

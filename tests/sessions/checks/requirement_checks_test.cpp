@@ -268,7 +268,7 @@ TEST_F(PrecisionChecks, UnstatedScaleAndCalibration_UseDefaults) {
   EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
   EXPECT_THAT(check.sentence, HasSubstr("limited by the mesh's scale (0.02 %, assumed) and the "
                                         "camera's calibration (0.02 % and "));
-  EXPECT_THAT(check.sentence, HasSubstr(" px, assumed) allow: 0.4"));
+  EXPECT_THAT(check.sentence, HasSubstr(" px, assumed): 0.4"));
   EXPECT_THAT(check.sentence, HasSubstr("state mesh_scale_sigma"));
 }
 

@@ -156,6 +156,27 @@ TEST(RunChecks, OnlyTheLastAttemptCounts) {
   EXPECT_EQ(checkOf(subject, "inlier_count").figure, 10.0);
 }
 
+TEST(RunChecks, RepeatedIterationOfAHypothesis_CountsAsTheAttemptOfTheHypothesis) {
+  ReviewSubject subject = subjectOf({}, 0.1);
+  subject.run->hypotheses.resize(2);
+  auto& iterations = subject.run->iterations;
+  auto original = std::make_shared<IterationTrace>(*iterations.back());
+  original->camera_from_station_before.translation_m.x() = 0.1;
+  iterations.back() = original;
+  auto repeated = std::make_shared<IterationTrace>(*original);
+  auto other = matching({.inliers = 1}, 500.0);
+  other->attempt = 1;
+  repeated->attempt = 2;
+  iterations.push_back(other);
+  iterations.push_back(repeated);
+  EXPECT_NEAR(checkOf(subject, "corrections_shrink").figure.value(), 0.5, 1e-9);
+  EXPECT_EQ(checkOf(subject, "inlier_count").figure, 10.0);
+
+  iterations.erase(iterations.begin());
+  EXPECT_THAT(checkOf(subject, "inlier_count").sentence,
+              HasSubstr("The attempt that led to the pose has no matching iteration."));
+}
+
 /// That the checks are the same in the same order is a test of checkPose.
 TEST(RunChecks, WithoutARunOrAMatching_AreNotApplicable) {
   ReviewSubject subject;

@@ -167,6 +167,9 @@ TEST(ChecksDifference, ConvergenceTest_IsComparedOnlyWhereItWasRepeated) {
     stated.back().state = CheckState::kPassed;
     EXPECT_EQ(checksDifference(statedChecks(stated), measured, false), "");
     EXPECT_NE(checksDifference(statedChecks(stated), measured, true), "");
+    stated.back().sentence = "It was measured.";
+    EXPECT_THAT(rewordedChecks(statedChecks(stated), measured, false), IsEmpty());
+    EXPECT_THAT(rewordedChecks(statedChecks(stated), measured, true), SizeIs(1));
     stated.front().state = CheckState::kFailed;
     EXPECT_NE(checksDifference(statedChecks(stated), measured, false), "");
   }
@@ -175,11 +178,12 @@ TEST(ChecksDifference, ConvergenceTest_IsComparedOnlyWhereItWasRepeated) {
 TEST(RewordedChecks, OtherTitleOrSentence_IsNamed) {
   const std::vector<Check> measured = measuredChecks();
   std::vector<Check> stated = measured;
-  EXPECT_THAT(rewordedChecks(statedChecks(stated), measured), IsEmpty());
+  EXPECT_THAT(rewordedChecks(statedChecks(stated), measured, true), IsEmpty());
   stated[0].title = "Share";
   stated[1].sentence = "It is known.";
   stated[2].id = "another";
-  EXPECT_THAT(rewordedChecks(statedChecks(stated), measured), ElementsAre("Coverage", "Sigma"));
+  EXPECT_THAT(rewordedChecks(statedChecks(stated), measured, true),
+              ElementsAre("Coverage", "Sigma"));
 }
 
 TEST(RequireAsMeasured, Difference_IsRefusedWithItsCase) {

@@ -148,6 +148,19 @@ TEST(InputCheck, FilesOfFrames_AreInputs) {
               HasSubstr("no longer joins ARM_BASE and END_EFFECTOR"));
 }
 
+TEST(ReadKnownScene, ChangedOrMissingFileOfFrames_IsRefused) {
+  const TemporaryFolder folder;
+  SessionCase session_case = makeCase(filesOf(copyOfExamples(folder) / "bc")).made;
+  std::filesystem::copy(exampleFolder() / "../frames/arm.json", folder / "arm.json");
+  session_case.frames = readFrameTransforms(folder / "arm.json");
+  EXPECT_NO_THROW((void)loadCase(session_case));
+  folder.write("arm.json", folder.read("arm.json") + "\n");
+  EXPECT_THAT(folder.message([&] { (void)loadCase(session_case); }),
+              testing::StartsWith("arm.json: its bytes differ from those of the session"));
+  std::filesystem::remove(folder / "arm.json");
+  EXPECT_EQ(folder.message([&] { (void)loadCase(session_case); }), "arm.json: no such file");
+}
+
 /// Sessions of version 1.0 name the files of frames without their folders.
 TEST(InputCheck, FramesWithoutAFolder_AreNotLookedFor) {
   const TemporaryFolder folder;

@@ -141,7 +141,8 @@ TEST_F(SessionDocumentTest, JournalOfAKilledProgram_IsOffered) {
   {
     SessionDocument document = SessionDocument::open(file);
     ASSERT_TRUE(document.recovery());
-    EXPECT_THAT(document.recovery()->edits, ElementsAre("Recover 3 edits", "Edit 4"));
+    EXPECT_THAT(document.recovery()->edits,
+                ElementsAre("Recover 3 edits: Edit 1, Edit 2, Edit 3", "Edit 4"));
     document.acceptRecovery();
     document.save();
   }
@@ -430,13 +431,34 @@ TEST(Journal, OfVersion1_IsOffered) {
   }
   {
     SessionDocument document = SessionDocument::open(edited.file);
-    EXPECT_THAT(document.recovery()->edits, ElementsAre("Recover 2 edits"));
+    EXPECT_THAT(document.recovery()->edits, ElementsAre("Recover 2 edits: A, B"));
     document.acceptRecovery();
     document.save();
   }
   write(edited.saved.file_sha256);
   EXPECT_FALSE(SessionDocument::open(edited.file).recovery()) << "its edits are saved";
   EXPECT_FALSE(std::filesystem::exists(edited.folder / "s.journal"));
+}
+
+TEST_F(SessionDocumentTest, EditAndSave_LeavesTheJournalAsItWasUntilTheFileIsSaved) {
+  leaveUnsaved(2);
+  const std::string journal = folder.read("s.journal");
+  {
+    SessionDocument document = SessionDocument::open(file, Access::kEditAndSave);
+    document.acceptRecovery();
+    document.apply(edited(first, 3), "Edit 3");
+    EXPECT_EQ(folder.read("s.journal"), journal);
+    document.apply(first, "Back");
+    EXPECT_EQ(folder.read("s.journal"), journal) << "the session is as saved, but its edits wait";
+    document.apply(edited(first, 3), "Edit 3");
+  }
+  EXPECT_EQ(folder.read("s.journal"), journal);
+  SessionDocument document = SessionDocument::open(file, Access::kEditAndSave);
+  document.acceptRecovery();
+  document.apply(edited(document.session(), 3), "Edit 3");
+  document.save();
+  EXPECT_TRUE(readSessionFile(file).session == edited(first, 3));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
 }
 
 TEST_F(SessionDocumentTest, Save_WhenAnotherProgramChangedTheJournal_StillSaves) {
