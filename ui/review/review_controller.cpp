@@ -203,9 +203,12 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
       return sessions::validated(session, *subject_, checks_, waivers(), who, convergence_.seeds);
     case Act::kApprove:
       return sessions::approved(session, id, who);
-    case Act::kReject:
-      return sessions::rejected(session, id, current_ ? checks_ : std::vector<sessions::Check>(),
+    case Act::kReject: {
+      // The decision names the run: checks of annotations are not those of its pose.
+      const bool of_run = current_ && source_ == PoseSource::kRun;
+      return sessions::rejected(session, id, of_run ? checks_ : std::vector<sessions::Check>(),
                                 who);
+    }
     case Act::kTakeBack:
       return sessions::reopened(session, id, who);
   }
@@ -237,7 +240,8 @@ QString ReviewController::unseen(Act act) const {
   if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
   if (act == Act::kValidate && !current_)
     return tr("the checks of %1 are not complete yet: wait for them").arg(id);
-  if (!showsOtherRun()) return {};
+  // A result can be rejected without any pose, such as one whose trace is missing.
+  if (!showsOtherRun() || (act == Act::kReject && !state_.snapshot())) return {};
   return state_.snapshot()
              ? tr("the image shows another run than the checks are of: show the last run of %1")
                    .arg(id)

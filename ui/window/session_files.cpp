@@ -68,8 +68,11 @@ QString meshUnitText(const char* unit, const std::optional<double>& extent) {
 
 SessionFiles::SessionFiles(QWidget& window, WindowParts& parts)
     : QObject(&window), window_(window), parts_(parts) {
-  // Tasks of the session that is left end without a result.
-  connect(&parts_.document, &Document::opened, this, [this] { requested_.clear(); });
+  // Tasks of the session that is left end without a result; those of one that is read again go on.
+  connect(&parts_.document, &Document::opened, this, [this] {
+    if (opening_ != parts_.document.openings()) requested_.clear();
+    opening_ = parts_.document.openings();
+  });
 }
 
 bool SessionFiles::open(const std::filesystem::path& file, Former former) {

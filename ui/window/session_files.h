@@ -136,6 +136,7 @@ class SessionFiles : public QObject {
   DroppedFiles collected_;   ///< of a case that is not complete yet
   int collection_ = 0;       ///< another number after each change of the collected files
   std::set<int> requested_;  ///< collections of which a case is being made
+  int opening_ = 0;          ///< Document::openings() of the session that they belong to
   sessions::JudgedFiles judged_;
   QImage picture_;
   QString kept_;  ///< names of the files from an earlier drop

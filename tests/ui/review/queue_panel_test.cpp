@@ -306,8 +306,8 @@ TEST_F(QueuePanelTest, CaseThatIsStillReadOrShowsAnotherRun_IsNotDecided) {
   for (const Act act : {Act::kValidate, Act::kReject})
     EXPECT_TRUE(test::has(obstacle(act), "shows another run"));
   window_.state().setSnapshot(nullptr);
-  for (const Act act : {Act::kValidate, Act::kReject})
-    EXPECT_TRUE(test::has(obstacle(act), "shows no run"));
+  EXPECT_TRUE(test::has(obstacle(Act::kValidate), "shows no run"));
+  EXPECT_EQ(obstacle(Act::kReject), QString()) << "its trace may be missing";
   window_.state().setSnapshot(shown_before);
 }
 

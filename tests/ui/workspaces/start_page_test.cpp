@@ -154,6 +154,16 @@ TEST_F(StartPageTest, DoubleClick_MakesOneCase) {
   EXPECT_EQ(questions, 0);
 }
 
+TEST_F(StartPageTest, SessionThatIsReadAgainWhileACaseIsMade_GetsTheCase) {
+  openExample();
+  window_.workspaces().show(Workspace::kStart);
+  window_.takeFiles({os_ / "image.png", os_ / "camera.json", os_ / "model.ply"});
+  files().setMeshUnit("m");
+  find<QPushButton>("makeSeedless").click();
+  ASSERT_TRUE(files().open(file_, Former::kDiscard));
+  ASSERT_TRUE(wait([&] { return window_.document().session().cases.size() == 3 && resting(); }));
+}
+
 /// The case of the files before the correction was added.
 TEST_F(StartPageTest, CorrectedFilesAndUnit_ReplaceTheRequestBefore) {
   int questions = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/case/calibration_panel.h"
 
-#include <utility>
-
 #include <QtWidgets>
 
 #include "sessions/calibration/calibrated_values.h"
@@ -88,10 +86,11 @@ void CalibrationPanel::forget(const QString& reason) {
   ui_.summary->setText(reason);
 }
 
-/// Its cases would get the calibration of another camera.
+/// The cases of another camera would get the calibration of this one.
 void CalibrationPanel::followCamera() {
   const sessions::SessionCase* shown = shownCase(document_, state_);
-  if (calibrated_ && shown && !(shown->camera == *calibrated_))
+  const bool is_used = calibration_ && shown && shown->camera == calibration_->camera;
+  if (calibrated_ && shown && !is_used && !(shown->camera == *calibrated_))
     forget(tr("The camera of the case has changed: calibrate again."));
 }
 
@@ -129,9 +128,8 @@ void CalibrationPanel::take(const sessions::CameraCalibration& calibration) {
 void CalibrationPanel::use() {
   const std::string id = shownCaseId(document_, state_);
   if (!calibration_ || id.empty()) return;
-  const sessions::Session next = sessions::withCalibration(document_.session(), id, *calibration_);
-  const auto former = std::exchange(calibrated_, calibration_->camera);  // its result stays shown
-  if (!document_.edit(next, tr("Use the calibrated camera"))) calibrated_ = former;
+  document_.edit(sessions::withCalibration(document_.session(), id, *calibration_),
+                 tr("Use the calibrated camera"));
 }
 
 }  // namespace boresight::ui

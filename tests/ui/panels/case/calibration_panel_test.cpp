@@ -39,6 +39,8 @@ TEST_F(CalibrationPanelTest, FindsALongerLensAndUsesItForItsCases) {
   EXPECT_EQ(table.rowCount(), 3) << "the result stays";
   QTest::keySequence(&window_, QKeySequence::Undo);
   EXPECT_EQ(window_.document().session().cases[0]->camera.fx, before);
+  EXPECT_EQ(table.rowCount(), 3) << "it is of this camera";
+  EXPECT_TRUE(find<QPushButton>("use").isEnabled());
 }
 
 TEST_F(CalibrationPanelTest, ResultForAnotherCase_IsNotShown) {
