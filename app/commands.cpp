@@ -322,7 +322,7 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover,
   if (!recover) failForEdits(document);
   const std::vector<std::string> edits = document.recovery()->edits;
   document.acceptRecovery();
-  for (const std::string& edit : edits) note("recovered edit: " + edit);
+  for (const std::string& edit : edits) note("edit taken from the journal: " + edit);
   return document;
 }
 

@@ -4,6 +4,7 @@
 #include "app/case_arguments.h"
 #include "sessions/io/cameras/camera_field.h"
 #include "sessions/io/files/errors.h"
+#include "sessions/io/json/config_file.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
@@ -105,8 +106,12 @@ int makeNew(const NewArguments& arguments) {
   for (const auto& session_case : session.cases)
     for (const std::string& warning : sessions::labelWarnings(*session_case))
       note("case " + session_case->id + ": " + warning);
-  if (arguments.results.empty())
-    session = withOptions(session, arguments.options.profileName(), arguments.options.read());
+  if (arguments.results.empty()) {
+    // A session does not limit memory: of the profile of flight it has the options.
+    const std::string name = arguments.options.profileName();
+    session = withOptions(session, sessions::profileOptions(name) ? name : "default",
+                          arguments.options.read());
+  }
   const auto document = sessions::SessionDocument::create(arguments.out, session);
   print(document.file().string() + ": " + std::to_string(session.cases.size()) +
         (session.cases.size() == 1 ? " case" : " cases"));

@@ -76,7 +76,7 @@ void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
 /// Whether the run on the ground equals the onboard run, if the case has its onboard record.
 void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks);
 
-/// Inliers of the last matching iteration; 0 when there was none.
+/// Inliers of lastMatching(); 0 when there is none.
 std::int32_t lastInliers(const LocalizationTrace& run);
 
 /// Index of the iteration to open first: the last failed one of a run that did not converge, else

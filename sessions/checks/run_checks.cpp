@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "sessions/checks/generalized_eigen.h"
 #include "sessions/decision/check.h"
 #include "sessions/text/plain_text.h"
+#include "sessions/trace/decisive_attempt.h"
 #include "sessions/trace/match_details.h"
 #include "sessions/trace/run_text.h"
 
@@ -44,41 +44,8 @@ Check convergedCheck(const LocalizationTrace& run) {
                      "Check the failed iteration; start nearer, or ignore unreliable pixels.");
 }
 
-bool cameToPose(const IterationTrace& iteration) {
-  return iteration.status == LocalizationStatus::kRunning ||
-         iteration.status == LocalizationStatus::kConverged;
-}
-
-/// Whether an attempt that ends with `iteration` is repeated from its last pose by `repeated`.
-bool isRepeatedBy(const IterationTrace& iteration, const IterationTrace& repeated) {
-  return iteration.attempt != repeated.attempt && iteration.kind == repeated.kind &&
-         iteration.level == repeated.level &&
-         iteration.camera_from_station_before == repeated.camera_from_station_before;
-}
-
-using Iterations = std::vector<std::shared_ptr<const IterationTrace>>;
-
-/// The iterations of the attempt that led to the pose: the last one. A run that compares
-/// hypotheses ends with the last iteration of the best one repeated: then the attempt of that
-/// hypothesis.
-Iterations decisiveAttempt(const LocalizationTrace& run) {
-  if (run.iterations.empty()) return {};
-  const auto attemptOf = [&run](std::int32_t attempt) {
-    Iterations found;
-    std::ranges::copy_if(run.iterations, std::back_inserter(found),
-                         [=](const auto& item) { return item->attempt == attempt; });
-    return found;
-  };
-  const Iterations last = attemptOf(run.iterations.back()->attempt);
-  if (run.hypotheses.empty()) return last;
-  const auto original = std::find_if(
-      run.iterations.rbegin(), run.iterations.rend(),
-      [&](const auto& item) { return cameToPose(*item) && isRepeatedBy(*item, *last.front()); });
-  return original == run.iterations.rend() ? last : attemptOf((*original)->attempt);
-}
-
 Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) {
-  Iterations iterations = decisiveAttempt(run);
+  std::vector<std::shared_ptr<const IterationTrace>> iterations = decisiveAttempt(run);
   if (!iterations.empty() && !cameToPose(*iterations.back()))
     return notAskedCheck(kCorrections, "The last iteration has no pose.");
   std::erase_if(iterations, [](const auto& item) { return !cameToPose(*item); });
@@ -92,13 +59,6 @@ Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) 
   return measuredCheck(kCorrections, "%", 100.0 * last_px / std::max(first_px, 1.0),
                        limits.last_correction_percent, LimitSide::kAtMost, found,
                        "The pose has not settled: run more iterations, or check the last matches.");
-}
-
-const IterationTrace* lastMatching(const Iterations& iterations) {
-  const IterationTrace* found = nullptr;
-  for (const auto& item : iterations)
-    if (item->kind == IterationKind::kMatch && item->reached > Stage::kRender) found = item.get();
-  return found;
 }
 
 void addCounts(const IterationTrace& iteration, const CheckLimits& limits,
@@ -195,8 +155,7 @@ Check marginCheck(const IterationTrace& iteration, const CheckLimits& limits) {
 
 void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
                        std::vector<Check>& checks) {
-  const Iterations iterations = decisiveAttempt(run);
-  const IterationTrace* iteration = lastMatching(iterations);
+  const std::shared_ptr<const IterationTrace> iteration = lastMatching(run);
   if (iteration == nullptr)
     return addNotAsked({kCount, kRatio, kSpread, kDepth, kBorder, kMargin},
                        "The attempt that led to the pose has no matching iteration.", checks);
@@ -266,10 +225,8 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
 }
 
 std::int32_t lastInliers(const LocalizationTrace& run) {
-  const auto found =
-      std::find_if(run.iterations.rbegin(), run.iterations.rend(),
-                   [](const auto& iteration) { return iteration->kind == IterationKind::kMatch; });
-  return found == run.iterations.rend() ? 0 : (*found)->pnp.inlier_count;
+  const std::shared_ptr<const IterationTrace> iteration = lastMatching(run);
+  return iteration == nullptr ? 0 : iteration->pnp.inlier_count;
 }
 
 int iterationToOpen(const LocalizationTrace& run) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/json/json_writer.h"
+#include "sessions/trace/decisive_attempt.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
@@ -49,10 +50,9 @@ void noteTrace(const LocalizationTrace& trace, RunResult& result) {
   result.completed = trace.converged();
   result.camera_from_station = trace.camera_from_station;
   result.iterations = static_cast<std::int32_t>(trace.iterations.size());
-  for (const auto& iteration : trace.iterations) {
-    if (iteration->kind != IterationKind::kMatch) continue;
-    result.matches = iteration->searched_count;
-    result.inliers = iteration->pnp.inlier_count;
+  if (const auto matching = lastMatching(trace)) {
+    result.matches = matching->searched_count;
+    result.inliers = matching->pnp.inlier_count;
   }
   result.edge_support = trace.support.share();
   if (hasProbability(trace)) {

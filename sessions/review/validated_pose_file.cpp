@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/review/validated_pose_file.h"
 
-#include <algorithm>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,6 +23,7 @@
 #include "sessions/version.h"
 
 #include "sessions/text/utc_time.h"
+#include "sessions/trace/decisive_attempt.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
@@ -166,14 +167,11 @@ ordered_json pixelJson(const Eigen::Vector2d& pixel) {
   return ordered_json::array({pixel.x(), pixel.y()});
 }
 
-/// Of the last iteration that matched templates.
 ordered_json matchesJson(const LocalizationTrace& run) {
-  const auto last =
-      std::find_if(run.iterations.rbegin(), run.iterations.rend(),
-                   [](const auto& each) { return each->kind == IterationKind::kMatch; });
   ordered_json list = ordered_json::array();
-  if (last == run.iterations.rend()) return list;
-  const IterationTrace& iteration = **last;
+  const std::shared_ptr<const IterationTrace> last = lastMatching(run);
+  if (last == nullptr) return list;
+  const IterationTrace& iteration = *last;
   for (std::size_t i = 0; i < iteration.correspondences.size(); ++i) {
     const Correspondence& correspondence = iteration.correspondences[i];
     ordered_json json;

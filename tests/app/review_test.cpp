@@ -66,7 +66,7 @@ TEST_F(ReviewCommands, DecisionThatCannotBeSaved_IsNotLeftToBeRecovered) {
   EXPECT_EQ(runWithoutSpace(deciding({"--reject", "--recover"})).exit_code, 3);
   EXPECT_EQ(folder_.read("s.boresight.journal"), left);
   EXPECT_THAT(runWhs(deciding({"--reject", "--recover"}), 0).err,
-              HasSubstr("recovered edit: Look at it\n"));
+              HasSubstr("edit taken from the journal: Look at it\n"));
   EXPECT_FALSE(std::filesystem::exists(journal));
 }
 

@@ -244,6 +244,17 @@ TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
+TEST(WhsNew, EveryProfileMakesASession) {
+  const TemporaryFolder folder;
+  for (const char* profile : {"default", "paper", "flight"}) {
+    const std::string out = folder / (std::string(profile) + ".boresight.json");
+    runWhs({"new", "--dataset", exampleDataset(), "--profile", profile, "--out", out}, 0);
+    const sessions::Session session = sessions::readSessionFile(out).session;
+    EXPECT_EQ(sessions::sessionOptions(session, out).search.color,
+              std::string(profile) != "flight");
+  }
+}
+
 TEST(WhsNew, SaysAtOnceWhatARunWouldRefuse) {
   const TemporaryFolder folder;
   const std::filesystem::path os = exampleFolder() / "os";

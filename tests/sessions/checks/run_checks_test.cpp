@@ -171,8 +171,10 @@ TEST(RunChecks, RepeatedIterationOfAHypothesis_CountsAsTheAttemptOfTheHypothesis
   iterations.push_back(repeated);
   EXPECT_NEAR(checkOf(subject, "corrections_shrink").figure.value(), 0.5, 1e-9);
   EXPECT_EQ(checkOf(subject, "inlier_count").figure, 10.0);
+  EXPECT_EQ(lastInliers(*subject.run), 10);
 
   iterations.erase(iterations.begin());
+  EXPECT_EQ(lastInliers(*subject.run), 0);
   EXPECT_THAT(checkOf(subject, "inlier_count").sentence,
               HasSubstr("The attempt that led to the pose has no matching iteration."));
 }

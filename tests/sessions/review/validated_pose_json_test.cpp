@@ -244,6 +244,7 @@ TEST(ValidatedPoseJson, Matches_AreThoseOfTheLastMatchingIteration) {
                                     {IterationKind::kRefine, 2}}) {
     auto iteration = std::make_shared<IterationTrace>();
     iteration->kind = kind;
+    iteration->reached = Stage::kRefine;
     for (int i = 0; i < count; ++i) {
       Correspondence& pair = iteration->correspondences.emplace_back();
       pair.point_in_station_m = {1.0 * i, 2.0, 3.0};
@@ -270,6 +271,11 @@ TEST(ValidatedPoseJson, Matches_AreThoseOfTheLastMatchingIteration) {
       {"point_in_station_m": [1.0, 2.0, 3.0], "pixel": [10.0, 20.0], "inlier": false,
        "residual_px": 4.0},
       {"point_in_station_m": [2.0, 2.0, 3.0], "pixel": [20.0, 20.0]}])"));
+  auto of_next_attempt = std::make_shared<IterationTrace>(*run.iterations.back());
+  of_next_attempt->attempt = 1;
+  run.iterations.back() = of_next_attempt;
+  EXPECT_EQ(Handed(random).json(run)["run"]["matches"], ordered_json::array())
+      << "they did not lead to the pose";
   run.iterations.erase(run.iterations.begin(), run.iterations.begin() + 2);
   EXPECT_EQ(Handed(random).json(run)["run"]["matches"], ordered_json::array());
 }
