@@ -85,10 +85,11 @@ std::optional<Session> validatedCase(const Session& session, const DecideArgumen
 std::optional<Session> decided(const Session& session, const DecideArguments& arguments,
                                const std::stop_token& stop) {
   if (arguments.validate) return validatedCase(session, arguments, stop);
+  const std::string run = sessions::lastRunDigest(session, arguments.case_id);
   if (arguments.approve)
-    return sessions::approved(session, arguments.case_id, arguments.signature());
+    return sessions::approved(session, arguments.case_id, run, arguments.signature());
   if (arguments.reject)
-    return sessions::rejected(session, arguments.case_id, {}, arguments.signature());
+    return sessions::rejected(session, arguments.case_id, run, {}, arguments.signature());
   return sessions::reopened(session, arguments.case_id, arguments.signature());
 }
 

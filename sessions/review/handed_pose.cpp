@@ -190,8 +190,10 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
   };
   const Decision* decision = session.decisionOn(case_id);
   const RunRecord* last = session.lastRunOf(case_id);
-  // A decision on a run holds while it is the last one, whatever the pose is from.
-  const bool needs_last = last != nullptr && decision != nullptr && !decision->digest.empty();
+  // Whatever the pose is from: a decision on a run holds while it is the last one, and one on a
+  // case without a pose while it has no run.
+  const bool needs_last =
+      last != nullptr && decision != nullptr && (!decision->digest.empty() || !decision->pose);
   Session next = session;
   next.cases.eraseIf([&](const auto& item) { return isOther(item->id); });
   next.annotations.eraseIf([&](const auto& entry) { return isOther(entry.first); });

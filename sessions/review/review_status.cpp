@@ -36,6 +36,7 @@ std::string droppedText(const Session& session, const Decision& decision) {
     return "it does not state its inputs";
   const bool of_run = !decision.digest.empty();
   const RunRecord* last = session.lastRunOf(decision.case_id);
+  if (!of_run && !decision.pose && last != nullptr) return "there is a later run";
   if (of_run && last == nullptr) return "its run is missing";
   if (of_run && last->digest != decision.digest) return "there is a later run";
   return changedInputsText(decision.input_fingerprint,
@@ -312,13 +313,22 @@ Session validated(const Session& session, const ReviewSubject& subject,
   return withDecision(session, std::move(decision));
 }
 
-Session approved(const Session& session, const std::string& case_id, const Signature& who) {
+std::string lastRunDigest(const Session& session, const std::string& case_id) {
+  const RunRecord* run = session.lastRunOf(case_id);
+  return run != nullptr ? run->digest : std::string();
+}
+
+Session approved(const Session& session, const std::string& case_id, const std::string& seen_run,
+                 const Signature& who) {
   requireCase(session, case_id);
   const Signature signature = requireSigned(who, "approve this validation");
   const ReviewStatus status = reviewStatusOf(session, case_id);
   if (status.decision == nullptr || status.decision->verdict != Verdict::kValidated)
     throw DecisionError("there is no validation of '" + case_id + "' to approve");
   if (!status.holds()) throw DecisionError("the validation no longer holds: " + status.dropped);
+  // Of annotations, no run needs to be seen.
+  if (!status.decision->digest.empty() && status.decision->digest != seen_run)
+    throw DecisionError("the validation is of another run than the shown one");
   if (status.decision->approval)
     throw DecisionError("it is already approved by " + status.decision->approval->by);
   if (samePerson(status.decision->by, signature.by))
@@ -328,13 +338,15 @@ Session approved(const Session& session, const std::string& case_id, const Signa
   return withDecision(session, std::move(decision));
 }
 
-Session rejected(const Session& session, const std::string& case_id,
+Session rejected(const Session& session, const std::string& case_id, const std::string& seen_run,
                  const std::vector<Check>& checks, const Signature& who) {
   requireCase(session, case_id);
+  if (seen_run != lastRunDigest(session, case_id))
+    throw DecisionError("the shown run is not the last run of '" + case_id + "'");
   Decision decision =
       newDecision(case_id, Verdict::kRejected, requireSigned(who, "reject this result"));
   decision.checks = judgedChecks(checks, {});
-  if (const RunRecord* run = session.lastRunOf(case_id)) decision.digest = run->digest;
+  decision.digest = seen_run;
   decision.input_fingerprint = inputFingerprint(session, case_id, decision.digest);
   return withDecision(session, std::move(decision));
 }

@@ -87,13 +87,18 @@ Session validated(const Session& session, const ReviewSubject& subject,
                   const std::vector<Check>& checks, const CheckWaivers& waivers,
                   const Signature& who, int convergence_seeds = 0);
 
-/// Approves a validation that holds, as a second person. DecisionError when there is no such
-/// validation, or when it is the same person (samePerson).
-Session approved(const Session& session, const std::string& case_id, const Signature& who);
+/// Digest of the case's last run, or empty.
+std::string lastRunDigest(const Session& session, const std::string& case_id);
 
-/// Rejects a case's result, with a name and a reason; works without any pose. Known checks are
-/// stored with the decision.
-Session rejected(const Session& session, const std::string& case_id,
+/// Approves a validation that holds, as a second person who has seen the run `seen_run` (its
+/// digest; empty: none). DecisionError when there is no such validation, when it is of another run,
+/// or when it is the same person (samePerson).
+Session approved(const Session& session, const std::string& case_id, const std::string& seen_run,
+                 const Signature& who);
+
+/// Rejects a case's result, with a name and a reason; works without any pose. DecisionError when
+/// the run that was seen is not the last one. Known checks are stored with the decision.
+Session rejected(const Session& session, const std::string& case_id, const std::string& seen_run,
                  const std::vector<Check>& checks, const Signature& who);
 
 /// Reopens a case, with a name and a reason: its decision no longer holds, but stays in the

@@ -82,9 +82,7 @@ DecisionForm::DecisionForm(ReviewController& controller) : controller_(controlle
   for (QLineEdit* each : {ui_.decisionName, ui_.decisionComment}) {
     each->installEventFilter(this);
     connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
-    connect(each, &QLineEdit::returnPressed, this, [this] {
-      if (question_) ask(question_->act);
-    });
+    connect(each, &QLineEdit::returnPressed, this, &DecisionForm::answer);
   }
   ui_.reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
   connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
@@ -109,10 +107,20 @@ void DecisionForm::ask(Act act) {
                        : who.comment.empty() ? ui_.decisionComment
                                              : nullptr;
   if (!missing && decide(act, true)) return endQuestion();
-  question_ = {act, controller_.openedId()};
+  question_ = {act, controller_.openedId(), controller_.shownRun()};
   ui_.decisionComment->setPlaceholderText(act == Act::kReject ? tr("Why reject this result?")
                                                               : tr("Why validate this pose?"));
   (missing ? missing : ui_.decisionComment)->setFocus();
+}
+
+/// A run may end while the reason is typed: the answer is to the run of the question.
+void DecisionForm::answer() {
+  if (!question_) return;
+  if (std::exchange(question_->run, controller_.shownRun()) == question_->run)
+    ask(question_->act);
+  else
+    refuse(tr("Another run of %1 is shown by now: look at it, then press Enter again.")
+               .arg(fromText(controller_.caseId())));
 }
 
 void DecisionForm::endQuestion() {

@@ -52,6 +52,7 @@ class DecisionForm : public QWidget {
   struct Question {
     Act act;
     std::string case_id;
+    std::string run;  ///< digest of the run that was shown when it was asked
   };
 
   sessions::Signature signature() const;
@@ -59,6 +60,7 @@ class DecisionForm : public QWidget {
   bool decide(Act act, bool then_next);
   bool refuse(const QString& reason);
   bool overrules(Act act);
+  void answer();
   void endQuestion();
   void followCase();
   void showWhatIsPossible();

@@ -33,8 +33,7 @@ ReviewController::ReviewController(Document& document, ViewState& state)
   connectEach(document_, this, &ReviewController::follow, &Document::opened, &Document::changed);
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
   state_.onChange(ViewChange::kSnapshot, this, [this] {
-    if (std::exchange(shows_other_run_, showsOtherRun()) != showsOtherRun())
-      Q_EMIT reviewStatusChanged();
+    if (std::exchange(shown_run_, shownRun()) != shown_run_) Q_EMIT reviewStatusChanged();
   });
   connect(&convergence_runner_, &TaskRunner::busyChanged, this,
           &ReviewController::convergenceChanged);
@@ -60,8 +59,7 @@ bool ReviewController::hasAnnotations() const {
 }
 
 std::string ReviewController::runDigest() const {
-  const sessions::RunRecord* run = document_.session().lastRunOf(caseId());
-  return run ? run->digest : std::string();
+  return sessions::lastRunDigest(document_.session(), caseId());
 }
 
 void ReviewController::setSource(PoseSource source) {
@@ -109,7 +107,7 @@ std::optional<ReviewController::Question> ReviewController::question() const {
 
 void ReviewController::follow() {
   chooseSource();
-  shows_other_run_ = showsOtherRun();
+  shown_run_ = shownRun();
   problem_ = missing();
   auto current = question();
   if (!current || current != question_) {
@@ -202,12 +200,12 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
     case Act::kValidate:
       return sessions::validated(session, *subject_, checks_, waivers(), who, convergence_.seeds);
     case Act::kApprove:
-      return sessions::approved(session, id, who);
+      return sessions::approved(session, id, shownRun(), who);
     case Act::kReject: {
       // The decision names the run: checks of annotations are not those of its pose.
       const bool of_run = current_ && source_ == PoseSource::kRun;
-      return sessions::rejected(session, id, of_run ? checks_ : std::vector<sessions::Check>(),
-                                who);
+      return sessions::rejected(session, id, shownRun(),
+                                of_run ? checks_ : std::vector<sessions::Check>(), who);
     }
     case Act::kTakeBack:
       return sessions::reopened(session, id, who);
@@ -228,22 +226,42 @@ QString ReviewController::settled(Act act) const {
   return {};
 }
 
-bool ReviewController::showsOtherRun() const {
-  const ViewState::SnapshotPtr& run = state_.snapshot();
-  return source_ == PoseSource::kRun && hasRun() && (!run || run->digest != runDigest());
+/// The run that an act is on; empty: on none.
+std::string ReviewController::concerned(Act act) const {
+  const sessions::ReviewStatus current = reviewStatus();
+  switch (act) {
+    case Act::kValidate:
+      return source_ == PoseSource::kRun ? runDigest() : std::string();
+    case Act::kApprove:
+      return current.holds() ? current.decision->digest : std::string();
+    case Act::kReject:  // of the case's result, whatever else is judged
+      return runDigest();
+    case Act::kTakeBack:  // whatever is shown: the case is undecided then
+      return {};
+  }
+  throw std::logic_error("no such act");
 }
 
-/// Only a pose that is shown can be decided on; it is validated with its checks.
-QString ReviewController::unseen(Act act) const {
+/// A pose is validated with its checks, and approved with what it was validated by.
+QString ReviewController::unready(Act act) const {
   const QString id = fromText(caseId());
-  if (act != Act::kValidate && act != Act::kReject) return {};
   if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
   if (act == Act::kValidate && !current_)
     return tr("the checks of %1 are not complete yet: wait for them").arg(id);
-  // A result can be rejected without any pose, such as one whose trace is missing.
-  if (!showsOtherRun() || (act == Act::kReject && !state_.snapshot())) return {};
+  const sessions::Decision* judged = reviewStatus().judgedPose();
+  if (act != Act::kApprove || !judged || judged->pose->source == source_) return {};
+  return source_ == PoseSource::kRun
+             ? tr("the validation of %1 is of the annotation: select it as the judged pose").arg(id)
+             : tr("the validation of %1 is of its run: select it as the judged pose").arg(id);
+}
+
+/// Only a run that is shown can be decided on.
+QString ReviewController::unseen(Act act) const {
+  const std::string run = concerned(act);
+  if (run.empty() || run == shownRun()) return {};
+  const QString id = fromText(caseId());
   return state_.snapshot()
-             ? tr("the image shows another run than the checks are of: show the last run of %1")
+             ? tr("the image shows another run than the decision is on: show the last run of %1")
                    .arg(id)
              : tr("the image shows no run: show the last run of %1").arg(id);
 }
@@ -256,6 +274,7 @@ QString ReviewController::obstacle(Act act, const sessions::Signature& who) cons
     return open_id.empty() ? tr("no case is shown: select one in the list of cases")
                            : tr("%1 is still being read").arg(fromText(open_id));
   if (const QString said = settled(act); !said.isEmpty()) return said;
+  if (const QString reason = unready(act); !reason.isEmpty()) return reason;
   if (const QString reason = unseen(act); !reason.isEmpty()) return reason;
   try {
     // An obstacle that remains with a signature is told first.

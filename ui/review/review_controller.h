@@ -42,8 +42,10 @@ class ReviewController : public QObject {
   bool hasOtherCases() const;
   bool hasRun() const;
   bool hasAnnotations() const;
-  /// The digest of the run that is judged, or empty.
+  /// The digest of the case's last run, which can be judged; or empty.
   std::string runDigest() const;
+  /// The digest of the run that the operator sees, or empty.
+  std::string shownRun() const { return state_.shownRun(); }
   sessions::PoseSource source() const { return source_; }
   void setSource(sessions::PoseSource source);
 
@@ -62,7 +64,8 @@ class ReviewController : public QObject {
   sessions::ReviewStatus reviewStatus() const;
   /// The decisions on the case, the newest first; they point into the document's session.
   std::vector<const sessions::Decision*> history() const;
-  /// Why an act is not possible now, or empty.
+  /// Why an act is not possible now, or empty. Every act but the withdrawal of a decision is on
+  /// what the operator sees at this moment.
   QString obstacle(Act act, const sessions::Signature& who) const;
   /// Returns false without effect when there is an obstacle.
   bool decide(Act act, const sessions::Signature& who);
@@ -124,15 +127,16 @@ class ReviewController : public QObject {
   sessions::Session after(Act act, const sessions::Signature& who) const;
   bool isActive() const { return in_sight_ || follows_runs_; }
   QString settled(Act act) const;
+  std::string concerned(Act act) const;
+  QString unready(Act act) const;
   QString unseen(Act act) const;
-  bool showsOtherRun() const;
   void editSettings(const sessions::ReviewSettings& settings, const QString& text);
 
   Document& document_;
   ViewState& state_;
   bool in_sight_ = false;
   bool follows_runs_ = false;
-  bool shows_other_run_ = false;
+  std::string shown_run_;                              ///< at the last reviewStatusChanged
   std::optional<sessions::PoseSource> wanted_source_;  ///< for the shown case
   sessions::PoseSource source_ = sessions::PoseSource::kRun;
   std::optional<Question> question_;

@@ -83,6 +83,7 @@ void ViewState::show(const std::string& id, CasePtr loaded_case) {
   if (!same) opening_ = {id, ++count};
   case_ = std::move(loaded_case);
   snapshot_.reset();
+  missing_run_.reset();
   cursor_ = {};
   selected_template_ = -1;
   nudged_.reset();
@@ -100,7 +101,22 @@ void ViewState::replaceCase(CasePtr loaded_case) {
   Q_EMIT changed(ViewChange::kCase | ViewChange::kCursor | pose);
 }
 
+std::string ViewState::shownRun() const {
+  if (snapshot_) return snapshot_->digest;
+  return missing_run_ ? missing_run_->digest : std::string();
+}
+
+void ViewState::setMissingRun(const MissingRun& missing) {
+  missing_run_ = missing;
+  showSnapshot(nullptr);
+}
+
 void ViewState::setSnapshot(SnapshotPtr snapshot) {
+  missing_run_.reset();
+  showSnapshot(std::move(snapshot));
+}
+
+void ViewState::showSnapshot(SnapshotPtr snapshot) {
   const bool follows = cursor_.iteration == lastIteration();
   snapshot_ = std::move(snapshot);
   // A new run is shorter than the one before: the cursor is inside it before anybody looks.

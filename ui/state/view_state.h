@@ -33,6 +33,13 @@ struct RunCursor {
   bool operator==(const RunCursor&) const = default;
 };
 
+/// A run of which the views have nothing to show.
+struct MissingRun {
+  std::string
+      digest;       ///< of a stored run whose trace cannot be read; empty: it failed at its start
+  QString problem;  ///< why, one sentence
+};
+
 /// Changed parts of the view state.
 enum class ViewChange {
   kCase = 1 << 0,
@@ -78,6 +85,11 @@ class ViewState : public QObject {
   const CasePtr& currentCase() const { return case_; }
   /// nullptr before the first run of the case.
   const SnapshotPtr& snapshot() const { return snapshot_; }
+  /// Why there is no snapshot where there should be one.
+  const std::optional<MissingRun>& missingRun() const { return missing_run_; }
+  /// Digest of the run that the views show or report as missing. Empty: none, or one that has not
+  /// ended.
+  std::string shownRun() const;
   const RunCursor& cursor() const { return cursor_; }
   /// The iteration under the cursor, or nullptr.
   std::shared_ptr<const sessions::IterationTrace> iteration() const;
@@ -107,6 +119,8 @@ class ViewState : public QObject {
   void replaceCase(CasePtr loaded_case);
   /// Keeps the cursor; a cursor at the last iteration follows the run.
   void setSnapshot(SnapshotPtr snapshot);
+  /// Drops the snapshot.
+  void setMissingRun(const MissingRun& missing);
   void setCursor(const RunCursor& cursor);
   /// -1 selects none.
   void selectTemplate(int index);
@@ -140,10 +154,12 @@ class ViewState : public QObject {
  private:
   int lastIteration() const;
   void show(const std::string& id, CasePtr loaded_case);
+  void showSnapshot(SnapshotPtr snapshot);
 
   CaseOpening opening_;
   CasePtr case_;
   SnapshotPtr snapshot_;
+  std::optional<MissingRun> missing_run_;
   RunCursor cursor_;
   int selected_template_ = -1;
   std::optional<Pose> nudged_;

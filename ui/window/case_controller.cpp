@@ -59,7 +59,7 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   connect(&run_, &RunController::finished, this, &CaseController::storeRun);
   connect(&run_, &RunController::failed, this, [this](const QString& message) {
     run_is_prepared_ = false;
-    Q_EMIT failed(message);
+    reportRun(message);
   });
   connect(&batch_, &Batch::changed, this, &CaseController::batchChanged);
   connect(&batch_, &Batch::caseEnded, this,
@@ -252,8 +252,9 @@ void CaseController::loadLatestRun() {
         state_.setSnapshot(std::move(snapshot));
         Q_EMIT stalenessChanged();
       },
-      [this](const QString& problem) {
+      [this, digest = record->digest](const QString& problem) {
         reads_run_ = false;
+        if (!run_is_prepared_) state_.setMissingRun({digest, problem});
         Q_EMIT failed(problem);
       });
 }
@@ -312,12 +313,17 @@ void CaseController::start(const std::function<void()>& prepare, StepUntil until
     sessions::requireRunnable(*state_.currentCase());
     prepare();
   } catch (const std::exception& error) {
-    Q_EMIT failed(QString::fromUtf8(error.what()));
-    return;
+    return reportRun(QString::fromUtf8(error.what()));
   }
   batch_.dropSummary();
   dropRunReading();  // the run before would be shown over this one
   run_.advance(until);
+}
+
+/// Why there is no run. One that is shown stays.
+void CaseController::reportRun(const QString& problem) {
+  if (!state_.snapshot()) state_.setMissingRun({{}, problem});
+  Q_EMIT failed(problem);
 }
 
 void CaseController::requireLoaded() const {

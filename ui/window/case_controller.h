@@ -144,6 +144,7 @@ class CaseController : public QObject {
   void goOnAfter(int batch);
   void showRunOf(const std::string& case_id);
   void runIfWaiting();
+  void reportRun(const QString& problem);
   void showNudgedPose();
 
   Document& document_;

@@ -173,6 +173,7 @@ Situation VerdictController::situation() const {
   const auto& record = parts_.onboard.review();
   situation.can_repeat = record && record->plan.has_options;
   situation.trace = parts_.state.snapshot();
+  if (const auto& missing = parts_.state.missingRun()) situation.run_problem = missing->problem;
   if (situation.trace) situation.tried = taken_.before(id.toStdString(), situation.trace->digest);
   situation.stale = parts_.cases.staleness();
   situation.quality = parts_.quality.quality();

@@ -62,6 +62,7 @@ QString shownTitle(const sessions::Session& session, const ViewState& state) {
   if (!state.currentCase()) return {};
   const std::string& id = state.currentCase()->source.id;
   const ViewState::SnapshotPtr& shown = state.snapshot();
+  if (state.missingRun()) return WindowFrame::tr("%1: no run to show").arg(fromText(id));
   if (!shown && session.lastRunOf(id)) return fromText(id);  // it is being read, or about to run
   if (!shown) return WindowFrame::tr("%1: no run").arg(fromText(id));
   if (shown->replayed) return WindowFrame::tr("%1: onboard run").arg(fromText(id));

@@ -306,6 +306,12 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
                    .sentence = situation.input_problem,
                    .step = Step::kChangeInput,
                    .step_text = situation.input_step};
+  if (!trace && !situation.run_problem.isEmpty())
+    return Verdict{.tone = VerdictTone::kBad,
+                   .icon = Icon::kCross,
+                   .head = tr("There is no run to show."),
+                   .sentence = situation.run_problem,
+                   .step = Step::kRunAgain};
   if (!trace) return Verdict{.head = tr("Ready to run."), .step = Step::kRun};
   if (situation.stale.isEmpty()) return std::nullopt;
   return Verdict{.tone = VerdictTone::kCaution,

@@ -85,6 +85,7 @@ struct Situation {
   QString reading;        ///< the case of which files or the last run are being read, or empty
   bool in_batch = false;  ///< the shown case is run as soon as it is read, or by the batch
   std::shared_ptr<const sessions::LocalizationTrace> trace;
+  QString run_problem;      ///< why there is no trace where there should be one, or empty
   std::vector<Step> tried;  ///< remedies of earlier runs
   QString stale;            ///< changes since the run, or empty
   /// Quality of the run's pose; empty during its measurement.

@@ -91,7 +91,7 @@ TEST_F(PoseReportTest, UnvalidatedPose_IsLabelledOnEveryPage) {
 TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
   run();
   const sessions::ReviewSubject subject = validate({"Ad\xC3\xA0 \xE4\xB8\xAD", "looked at twice"});
-  session_ = approved(session_, id_, {"Bob", "so did I"});
+  session_ = approved(session_, id_, lastRunDigest(session_, id_), {"Bob", "so did I"});
   const std::filesystem::path file = write();
   const std::string first = pageText(file, 1);
   if (first.empty()) GTEST_SKIP() << "pdftotext is not installed";

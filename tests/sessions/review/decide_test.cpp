@@ -42,6 +42,7 @@ void expectRefused(const std::string& why, const std::function<void()>& act) {
 struct Decide : testing::Test {
   Random random = randomFor("Decide.Dropped");
   JudgedCase judged{random};
+  const std::string seen = judged.subject.run->digest;  ///< the run on the reviewer's screen
 };
 
 TEST_F(Decide, Validation_NeedsNameCommentAndWaivers) {
@@ -276,32 +277,54 @@ TEST_F(Decide, ChangeOfNonInputs_KeepsADecisionWhichOtherOptionsMakeOutdated) {
 
 TEST_F(Decide, Approval_ByTheSamePerson_IsRefused) {
   judged.session.review.second_person = true;
-  expectRefused("no validation", [&] { approved(judged.session, "a", {"Bob", "yes"}); });
+  expectRefused("no validation", [&] { approved(judged.session, "a", seen, {"Bob", "yes"}); });
   const Session first = judged.validatedBy("Ada L");
   EXPECT_EQ(reviewStatusOf(first, "a").state, ReviewState::kConverged);
   EXPECT_TRUE(reviewStatusOf(first, "a").awaits_approval);
   EXPECT_THAT(reviewStatusText(reviewStatusOf(first, "a")), HasSubstr("second person"));
-  expectRefused("another person", [&] { approved(first, "a", {"ada  l ", "yes"}); });
-  expectRefused("comment", [&] { approved(first, "a", {"Bob", ""}); });
-  const Session second = approved(first, "a", {"Bob", "yes"});
+  expectRefused("another person", [&] { approved(first, "a", seen, {"ada  l ", "yes"}); });
+  expectRefused("comment", [&] { approved(first, "a", seen, {"Bob", ""}); });
+  const Session second = approved(first, "a", seen, {"Bob", "yes"});
   EXPECT_EQ(reviewStatusOf(second, "a").state, ReviewState::kValidated);
   EXPECT_EQ(reviewStatusText(reviewStatusOf(second, "a")), "validated by Ada L, approved by Bob");
-  expectRefused("already", [&] { approved(second, "a", {"Eve", "yes"}); });
+  expectRefused("already", [&] { approved(second, "a", seen, {"Eve", "yes"}); });
   Session other = first;
   other.runs.clear();
-  expectRefused("no longer holds", [&] { approved(other, "a", {"Bob", "yes"}); });
+  expectRefused("no longer holds", [&] { approved(other, "a", seen, {"Bob", "yes"}); });
 }
 
 TEST_F(Decide, Rejection_NeedsNoPoseAndCanBeWithdrawn) {
   judged.session.runs.clear();
-  const Session rejected = sessions::rejected(judged.session, "a", {}, {"Ada", "blurred"});
+  const Session rejected = sessions::rejected(judged.session, "a", "", {}, {"Ada", "blurred"});
   EXPECT_EQ(reviewStatusOf(rejected, "a").state, ReviewState::kRejected);
   EXPECT_EQ(reviewStatusText(reviewStatusOf(rejected, "a")), "NOT VALIDATED: rejected by Ada");
-  expectRefused("comment", [&] { sessions::rejected(judged.session, "a", {}, {"Ada", ""}); });
+  expectRefused("comment", [&] { sessions::rejected(judged.session, "a", "", {}, {"Ada", ""}); });
   const Session again = reopened(rejected, "a", {"Bob", "another image came down"});
   EXPECT_EQ(reviewStatusOf(again, "a").state, ReviewState::kNew);
   EXPECT_EQ(again.decisions.size(), 2u);
   expectRefused("no decision", [&] { reopened(again, "a", {"Bob", "once more"}); });
+}
+
+TEST_F(Decide, DecisionOnARunThatIsNotShown_IsRefused) {
+  const std::string other = randomSha256(random);
+  for (const std::string& unseen : {other, std::string()})
+    expectRefused("is not the last run of 'a'", [&] {
+      sessions::rejected(judged.session, "a", unseen, {}, {"Ada", "no"});
+    });
+  judged.session.review.second_person = true;
+  const Session first = judged.validatedBy("Ada");
+  for (const std::string& unseen : {other, std::string()})
+    expectRefused("of another run", [&] { approved(first, "a", unseen, {"Bob", "yes"}); });
+}
+
+TEST_F(Decide, RejectionWithoutARun_DoesNotHoldForARunThatFollows) {
+  const std::vector<sessions::RunRecord> runs(judged.session.runs.begin(),
+                                              judged.session.runs.end());
+  judged.session.runs.clear();
+  Session after = sessions::rejected(judged.session, "a", "", {}, {"Ada", "blurred"});
+  after.runs.push_back(runs.front());
+  EXPECT_EQ(reviewStatusOf(after, "a").dropped, "there is a later run");
+  EXPECT_EQ(reviewStatusOf(after, "a").state, ReviewState::kConverged);
 }
 
 TEST_F(Decide, UndecidedCase_IsInTheStateOfItsRunOrAnnotations) {
@@ -323,7 +346,7 @@ TEST_F(Decide, StatusText_NamesADecisionThatNoLongerHolds) {
   EXPECT_EQ(reviewStatusText(reviewStatusOf(after, "a")),
             "NOT VALIDATED: converged; the validation by Ada no longer holds: the annotations have "
             "changed");
-  after = sessions::rejected(judged.session, "a", judged.checks, {"Bob", "blurred"});
+  after = sessions::rejected(judged.session, "a", seen, judged.checks, {"Bob", "blurred"});
   EXPECT_EQ(after.decisions.back().digest, judged.subject.run->digest);
   EXPECT_EQ(after.decisions.back().checks.size(), 3u);
   after = withAnnotations(after, "a", someAnnotations(random));
@@ -445,12 +468,14 @@ TEST_F(Decide, OtherCameraOfTheRig_IsAnInput) {
 }
 
 TEST_F(Decide, CaseThatDoesNotExist_CannotBeDecided) {
-  expectRefused("no case 'x'", [&] { approved(judged.session, "x", {"Bob", "yes"}); });
-  expectRefused("no case 'x'", [&] { sessions::rejected(judged.session, "x", {}, {"Bob", "no"}); });
+  expectRefused("no case 'x'", [&] { approved(judged.session, "x", seen, {"Bob", "yes"}); });
+  expectRefused("no case 'x'", [&] {
+    sessions::rejected(judged.session, "x", seen, {}, {"Bob", "no"});
+  });
   expectRefused("no case 'x'", [&] { reopened(judged.session, "x", {"Bob", "no"}); });
   expectRefused("to take back", [&] { reopened(judged.session, "a", {"Bob", "no"}); });
-  const Session rejection = sessions::rejected(judged.session, "a", {}, {"Ada", "no"});
-  expectRefused("no validation", [&] { approved(rejection, "a", {"Bob", "yes"}); });
+  const Session rejection = sessions::rejected(judged.session, "a", seen, {}, {"Ada", "no"});
+  expectRefused("no validation", [&] { approved(rejection, "a", seen, {"Bob", "yes"}); });
 }
 
 TEST(ReviewStateText, EachState_HasItsText) {

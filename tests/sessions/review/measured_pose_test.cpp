@@ -278,7 +278,8 @@ TEST(SessionOfCase, HasTheCaseItsRigAndTheRunsThatItNeeds) {
 TEST(SessionOfCase, DecisionOnARun_HasTheSameStatusForAPoseOfAnnotations) {
   RigSession rig;
   rig.judged.noteRun(randomSha256(rig.random), "iteration_limit", rig.random);
-  Session session = rejected(rig.judged.session, "a", {}, {"Ann", "nothing found"});
+  const Session& before = rig.judged.session;
+  Session session = rejected(before, "a", lastRunDigest(before, "a"), {}, {"Ann", "nothing found"});
   const auto handed = [&session] {
     return reviewStatusText(reviewStatusOf(sessionOfCase(session, "a", ""), "a"));
   };

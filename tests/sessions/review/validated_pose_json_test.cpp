@@ -226,7 +226,7 @@ TEST(ValidatedPoseJson, Decision_IsNamedWhileItHolds) {
   EXPECT_EQ(json()["decision"]["comment"], "looks right");
   EXPECT_FALSE(json()["decision"].contains("approval"));
   EXPECT_EQ(json()["checks"].size(), 3u);
-  session = approved(session, "a", {"Bob", "yes"});
+  session = approved(session, "a", lastRunDigest(session, "a"), {"Bob", "yes"});
   pose.validated = true;
   EXPECT_EQ(json()["state"], "validated");
   EXPECT_EQ(json()["decision"]["verdict"], "validated");

@@ -223,7 +223,7 @@ TEST_F(ValidatedPose, RejectedRunNextToAnnotations_IsHandedOverAsRejectedAndVeri
   const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
   ASSERT_FALSE(trace.converged());
   session_ = withRun(session_, storeRun(session_, id_, trace, folder_ / "s.boresight.json"));
-  session_ = rejected(session_, id_, {}, {"Ann", "it ended too early"});
+  session_ = rejected(session_, id_, trace.digest, {}, {"Ann", "it ended too early"});
   const fs::path file = write();
   EXPECT_EQ(read(file)["pose"]["source"], "annotation");
   EXPECT_EQ(read(file)["review_status"], "NOT VALIDATED: rejected by Ann");
@@ -340,7 +340,7 @@ TEST_F(ValidatedPose, Report_StatesWhetherAPersonValidatedThePose) {
   validate();
   session_.review.second_person = true;
   EXPECT_FALSE(verified(write()).validated) << "a second person must approve";
-  session_ = approved(session_, id_, {"Bob", "yes"});
+  session_ = approved(session_, id_, lastRunDigest(session_, id_), {"Bob", "yes"});
   const fs::path file = write();
   EXPECT_TRUE(verified(file).validated);
   EXPECT_THAT(verified(file).not_proved, Contains(StartsWith("written: by Boresight ")));
@@ -568,7 +568,7 @@ class WholeCase : public ValidatedPose {
       session_ = withRun(session_, storeRun(session_, id, trace, folder_ / "s.boresight.json"));
     validate();
     session_.review.second_person = true;
-    session_ = approved(session_, id_, {"Bob", "yes"});
+    session_ = approved(session_, id_, lastRunDigest(session_, id_), {"Bob", "yes"});
     file_ = write();
   }
 

@@ -306,9 +306,62 @@ TEST_F(QueuePanelTest, CaseThatIsStillReadOrShowsAnotherRun_IsNotDecided) {
   for (const Act act : {Act::kValidate, Act::kReject})
     EXPECT_TRUE(test::has(obstacle(act), "shows another run"));
   window_.state().setSnapshot(nullptr);
-  EXPECT_TRUE(test::has(obstacle(Act::kValidate), "shows no run"));
-  EXPECT_EQ(obstacle(Act::kReject), QString()) << "its trace may be missing";
+  for (const Act act : {Act::kValidate, Act::kReject})
+    EXPECT_TRUE(test::has(obstacle(act), "shows no run"));
+  window_.state().setMissingRun({shown_before->digest, QStringLiteral("It is gone.")});
+  EXPECT_EQ(obstacle(Act::kReject), QString()) << "the window reports that it cannot be shown";
   window_.state().setSnapshot(shown_before);
+}
+
+TEST_F(QueuePanelTest, RunThatIsNotShown_IsNeitherApprovedNorRejectedWithItsAnnotation) {
+  goToGood();
+  edit([](auto& session) { session.review.second_person = true; });
+  ASSERT_TRUE(shown(good_));
+  ASSERT_TRUE(review().decide(Act::kValidate, {"Ada", "good"}));
+  const auto obstacle = [this](Act act) { return review().obstacle(act, {"Bob", "so it is"}); };
+  EXPECT_EQ(obstacle(Act::kApprove), QString());
+  const auto shown_before = window_.state().snapshot();
+  const auto other = std::make_shared<sessions::LocalizationTrace>(RunExample::get().failed);
+  for (const auto& unseen : {ViewState::SnapshotPtr(other), ViewState::SnapshotPtr()}) {
+    window_.state().setSnapshot(unseen);
+    EXPECT_TRUE(test::has(obstacle(Act::kApprove), unseen ? "shows another run" : "shows no run"));
+    EXPECT_FALSE(review().decide(Act::kApprove, {"Bob", "so it is"}));
+    EXPECT_EQ(obstacle(Act::kTakeBack), QString()) << "it asks for no look at the run";
+  }
+  window_.state().setSnapshot(shown_before);
+  edit([this](auto& session) {
+    session.decisions.clear();
+    sessions::Annotations annotations;
+    annotations.points.emplace_back().id = "p1";
+    session = sessions::withAnnotations(session, good_.toStdString(), annotations);
+  });
+  review().setSource(sessions::PoseSource::kAnnotation);
+  ASSERT_EQ(review().source(), sessions::PoseSource::kAnnotation);
+  EXPECT_EQ(obstacle(Act::kReject), QString());
+  window_.state().setSnapshot(other);
+  EXPECT_TRUE(test::has(obstacle(Act::kReject), "shows another run"));
+  window_.state().setSnapshot(shown_before);
+}
+
+TEST_F(QueuePanelTest, RunThatEndsWhileTheReasonIsTyped_IsNotDecidedOnByTheAnswer) {
+  press(Qt::Key_R);
+  answer(QStringLiteral("Ada"));
+  ASSERT_TRUE(field("decisionComment").hasFocus());
+  edit([](sessions::Session& session) {  // as if the run before were the one that has ended
+    session.runs.eraseIf([](const sessions::RunRecord& run) {
+      return run.digest == RunExample::get().failed.digest;
+    });
+  });
+  window_.state().setSnapshot(
+      std::make_shared<sessions::LocalizationTrace>(RunExample::get().of_bad));
+  ASSERT_EQ(review().obstacle(Act::kReject, {"Ada", "blurred"}), QString());
+  answer(QStringLiteral("blurred"));
+  EXPECT_TRUE(decisions().empty());
+  EXPECT_TRUE(test::has(reading(), "Another run"));
+  EXPECT_TRUE(field("decisionComment").hasFocus());
+  press(Qt::Key_Return);
+  ASSERT_EQ(decisions().size(), 1u) << reading().toStdString();
+  EXPECT_EQ(decisions()[0].digest, RunExample::get().of_bad.digest);
 }
 
 TEST_F(QueuePanelTest, ChangedOptions_AreCalledOutdatedInListAndBadge) {

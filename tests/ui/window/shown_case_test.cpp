@@ -24,6 +24,7 @@
 #include "ui/window/verdict_controller.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/uncertainty_dialog.h"
+#include "ui/workspaces/verdict_bar.h"
 
 namespace boresight::ui {
 namespace {
@@ -322,6 +323,22 @@ TEST_F(ShownCaseTest, RunThatHasEnded_IsStoredWhileFilesAreRead) {
   EXPECT_TRUE(wait([&] { return session().runs.size() == 1; }));
   reader.gate.set_value();
   ASSERT_TRUE(rests());
+}
+
+TEST_F(ShownCaseTest, RunWhoseTraceIsMissing_IsReportedWhereTheRunWouldBe) {
+  openRun();
+  const sessions::RunRecord run = *session().lastRunOf(a());
+  ASSERT_TRUE(window_.document().save());
+  std::filesystem::remove(run.file);
+  ASSERT_TRUE(reopen());
+  ASSERT_TRUE(window_.state().missingRun());
+  EXPECT_EQ(window_.state().shownRun(), run.digest);
+  const Verdict& verdict = window_.findChild<VerdictBar*>()->verdict();
+  EXPECT_EQ(verdict.head, QStringLiteral("There is no run to show."));
+  EXPECT_EQ(verdict.sentence, window_.state().missingRun()->problem);
+  choose(b());
+  EXPECT_FALSE(window_.state().missingRun());
+  ASSERT_TRUE(showsCase(b()));
 }
 
 /// The last run of a case that was opened came over one that was made meanwhile.

@@ -189,6 +189,13 @@ TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdatedInRunAndReview) {
   }
 }
 
+TEST(Verdict, RunThatCannotBeShown_IsReportedWithItsReason) {
+  Situation situation = ready();
+  situation.run_problem = QStringLiteral("There is not enough memory.");
+  EXPECT_TRUE(tells(situation, Tone::kBad, "There is no run to show.",
+                    "There is not enough memory.", Step::kRunAgain));
+}
+
 /// For the seconds after a session is opened the count of failed checks is not known.
 TEST(Verdict, ValidationWhoseChecksAreNotMeasured_HasNoShieldAndNoTone) {
   Situation situation = validated();
