@@ -10,19 +10,21 @@ UncertaintyDialog::UncertaintyDialog(const sessions::DeclaredUncertainty& uncert
     : QDialog(parent), stated_(uncertainty) {
   ui_.setupUi(this);
   ui_.buttons->button(QDialogButtonBox::Ok)->setText(tr("Run again"));
-  translation_mm_ = {ui_.xAlong, ui_.yAlong, ui_.zAlong};
-  rotation_deg_ = {ui_.xAbout, ui_.yAbout, ui_.zAbout};
+  QDoubleSpinBox* const along[] = {ui_.xAlong, ui_.yAlong, ui_.zAlong};
+  QDoubleSpinBox* const about[] = {ui_.xAbout, ui_.yAbout, ui_.zAbout};
   for (std::size_t i = 0; i < 3; ++i) {
-    translation_mm_[i]->setValue(1e3 * uncertainty.translation_m[static_cast<int>(i)]);
-    rotation_deg_[i]->setValue(uncertainty.rotation_deg[static_cast<int>(i)]);
+    const auto axis = static_cast<Eigen::Index>(i);
+    translation_m_[i] = {*along[i], 1e3, uncertainty.translation_m[axis]};
+    rotation_deg_[i] = {*about[i], 1.0, uncertainty.rotation_deg[axis]};
   }
 }
 
 sessions::DeclaredUncertainty UncertaintyDialog::uncertainty() const {
   sessions::DeclaredUncertainty result = stated_;
   for (std::size_t i = 0; i < 3; ++i) {
-    result.translation_m[static_cast<int>(i)] = 1e-3 * translation_mm_[i]->value();
-    result.rotation_deg[static_cast<int>(i)] = rotation_deg_[i]->value();
+    const auto axis = static_cast<Eigen::Index>(i);
+    result.translation_m[axis] = translation_m_[i].value().value_or(0.0);
+    result.rotation_deg[axis] = rotation_deg_[i].value().value_or(0.0);
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include "ui_uncertainty_dialog.h"
 
 #include "sessions/io/cameras/pose_file.h"
+#include "ui/widgets/stated_number.h"
 
 namespace boresight::ui {
 
@@ -23,8 +24,8 @@ class UncertaintyDialog : public QDialog {
  private:
   Ui::UncertaintyDialog ui_;
   sessions::DeclaredUncertainty stated_;
-  std::array<QDoubleSpinBox*, 3> translation_mm_{};
-  std::array<QDoubleSpinBox*, 3> rotation_deg_{};
+  std::array<StatedNumber, 3> translation_m_;
+  std::array<StatedNumber, 3> rotation_deg_;
 };
 
 }  // namespace boresight::ui

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/case/input_sheet_panel.h"
 
-#include <cmath>
+#include <cstddef>
 
 #include <QtWidgets>
 
@@ -18,11 +18,6 @@ constexpr double kPercent = 100.0;
 InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent)
     : QDialog(parent), former_(one), former_calibration_(one.calibration_sigma) {
   ui_.setupUi(this);
-  const auto show = [](QDoubleSpinBox* box, double value, double maximum) {
-    box->setMaximum(maximum);
-    box->setValue(value);
-    return box->value();
-  };
   ui_.meshStated->setChecked(former_.mesh_scale_stated);
   ui_.cameraStated->setChecked(former_.stated != sessions::StatedCalibration());
   for (QWidget* field :
@@ -31,32 +26,28 @@ InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* 
     field->setEnabled(false);
     field->setToolTip(tr("The camera's covariance counts in place of these"));
   }
-  shown_mesh_scale_ =
-      show(ui_.meshScale, kPercent * former_.mesh_scale, kPercent * sessions::kMaxScaleSigma);
-  shown_focal_ = show(ui_.focal, kPercent * former_.calibration.focal_relative,
-                      kPercent * sessions::kMaxFocalSigma);
-  shown_centre_px_ = show(ui_.principalPoint, former_.calibration.principal_point_px,
-                          sessions::kMaxPrincipalPointSigma_px);
+  ui_.meshScale->setMaximum(kPercent * sessions::kMaxScaleSigma);
+  ui_.focal->setMaximum(kPercent * sessions::kMaxFocalSigma);
+  ui_.principalPoint->setMaximum(sessions::kMaxPrincipalPointSigma_px);
+  const auto stated = former_calibration_.value_or(sessions::StatedCalibration());
+  mesh_scale_ = {*ui_.meshScale, kPercent, former_.mesh_scale};
+  focal_ = {*ui_.focal, kPercent, stated.focal_relative, former_.calibration.focal_relative};
+  centre_px_ = {*ui_.principalPoint, 1.0, stated.principal_point_px,
+                former_.calibration.principal_point_px};
 }
 
 std::optional<double> InputSigmasDialog::meshScaleSigma() const {
-  if (!ui_.meshStated->isChecked()) return std::nullopt;
-  const double shown = ui_.meshScale->value();
-  return shown == shown_mesh_scale_ ? former_.mesh_scale : shown / kPercent;
+  return ui_.meshStated->isChecked() ? mesh_scale_.value() : std::nullopt;
 }
 
-/// A member whose box is unchanged keeps its exact value. It also stays assumed, unless neither
-/// member was stated: checking the group then states both.
+/// Checking the group without changing a member states both as they are assumed.
 std::optional<sessions::StatedCalibration> InputSigmasDialog::calibrationSigma() const {
   if (former_.calibration_derived) return former_calibration_;
   if (!ui_.cameraStated->isChecked()) return std::nullopt;
-  sessions::StatedCalibration stated = former_calibration_.value_or(sessions::StatedCalibration{
-      former_.calibration.focal_relative, former_.calibration.principal_point_px});
-  const double focal = ui_.focal->value();
-  const double centre_px = ui_.principalPoint->value();
-  if (focal != shown_focal_) stated.focal_relative = focal / kPercent;
-  if (centre_px != shown_centre_px_) stated.principal_point_px = centre_px;
-  return stated;
+  const sessions::StatedCalibration stated{focal_.value(), centre_px_.value()};
+  if (stated != sessions::StatedCalibration()) return stated;
+  return sessions::StatedCalibration{former_.calibration.focal_relative,
+                                     former_.calibration.principal_point_px};
 }
 
 JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)
@@ -64,39 +55,27 @@ JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* pare
       former_end_effector_(one.camera_from_end_effector.value_or(Pose())),
       former_requirement_(one.requirement.value_or(sessions::Requirement())) {
   ui_.setupUi(this);
-  const Eigen::Vector3d place_mm = 1e3 * former_end_effector_.translation_m;
   ui_.endEffectorStated->setChecked(one.camera_from_end_effector.has_value());
-  ui_.endEffectorX->setValue(place_mm.x());
-  ui_.endEffectorY->setValue(place_mm.y());
-  ui_.endEffectorZ->setValue(place_mm.z());
-  const sessions::Requirement& former = former_requirement_;
-  ui_.requirementStated->setChecked(former.normal_mm || former.lateral_mm || former.rotation_deg);
-  ui_.normal->setValue(former.normal_mm.value_or(0.4));
-  ui_.lateral->setValue(former.lateral_mm.value_or(0.4));
-  ui_.rotation->setValue(former.rotation_deg.value_or(0.25));
+  QDoubleSpinBox* const place[] = {ui_.endEffectorX, ui_.endEffectorY, ui_.endEffectorZ};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    place_m_[axis] = {*place[axis], 1e3,
+                      former_end_effector_.translation_m[static_cast<Eigen::Index>(axis)]};
+  normal_mm_ = {*ui_.normal, 1.0, former_requirement_.normal_mm};
+  lateral_mm_ = {*ui_.lateral, 1.0, former_requirement_.lateral_mm};
+  rotation_deg_ = {*ui_.rotation, 1.0, former_requirement_.rotation_deg};
 }
 
 std::optional<Pose> JudgementDialog::cameraFromEndEffector() const {
   if (!ui_.endEffectorStated->isChecked()) return std::nullopt;
   Pose stated = former_end_effector_;
-  const QDoubleSpinBox* boxes[] = {ui_.endEffectorX, ui_.endEffectorY, ui_.endEffectorZ};
-  for (int axis = 0; axis < 3; ++axis) {
-    // What is only shown rounded stays as it was.
-    const double value_m = 1e-3 * boxes[axis]->value();
-    if (std::abs(value_m - stated.translation_m[axis]) > 0.5e-6)
-      stated.translation_m[axis] = value_m;
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    stated.translation_m[static_cast<Eigen::Index>(axis)] = place_m_[axis].value().value_or(0.0);
   return stated;
 }
 
 std::optional<sessions::Requirement> JudgementDialog::requirement() const {
-  sessions::Requirement stated;
-  stated.projection_px = former_requirement_.projection_px;
-  if (ui_.requirementStated->isChecked()) {
-    stated.normal_mm = ui_.normal->value();
-    stated.lateral_mm = ui_.lateral->value();
-    stated.rotation_deg = ui_.rotation->value();
-  }
+  const sessions::Requirement stated{normal_mm_.value(), lateral_mm_.value(), rotation_deg_.value(),
+                                     former_requirement_.projection_px};
   return stated == sessions::Requirement() ? std::nullopt : std::optional(stated);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include <QDialog>
@@ -13,6 +14,7 @@
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/session.h"
 #include "sessions/session/stated_inputs.h"
+#include "ui/widgets/stated_number.h"
 
 namespace boresight::ui {
 
@@ -31,13 +33,13 @@ class InputSigmasDialog : public QDialog {
   Ui::InputSigmasDialog ui_;
   sessions::InputSigmas former_;
   std::optional<sessions::StatedCalibration> former_calibration_;
-  /// As rounded for display: percent, percent, px.
-  double shown_mesh_scale_ = 0.0;
-  double shown_focal_ = 0.0;
-  double shown_centre_px_ = 0.0;
+  StatedNumber mesh_scale_;  ///< relative
+  StatedNumber focal_;       ///< relative
+  StatedNumber centre_px_;
 };
 
-/// Asks for the point at which a pose is judged, and for its allowed errors.
+/// Asks for the point at which a pose is judged, and for its allowed errors. A limit that is not
+/// stated is shown as such, and stays so unless it is given a value.
 class JudgementDialog : public QDialog {
   Q_OBJECT
 
@@ -53,6 +55,8 @@ class JudgementDialog : public QDialog {
   Pose former_end_effector_;
   sessions::Requirement former_requirement_;
   Ui::JudgementDialog ui_;
+  std::array<StatedNumber, 3> place_m_;
+  StatedNumber normal_mm_, lateral_mm_, rotation_deg_;
 };
 
 /// Figures of the case's inputs with units; probable errors come first, as sentences. Ctrl+C copies

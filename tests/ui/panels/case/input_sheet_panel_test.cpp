@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/case/input_sheet_panel.h"
+#include "ui/workspaces/uncertainty_dialog.h"
 
 #include <gtest/gtest.h>
 #include <QtTest/QTest>
@@ -70,7 +71,9 @@ TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
   focal->setValue(0.05);
   ASSERT_TRUE(dialog.calibrationSigma());
   EXPECT_NEAR(dialog.calibrationSigma()->focal_relative.value_or(0.0), 5e-4, 1e-12);
-  EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
+  EXPECT_FALSE(dialog.calibrationSigma()->principal_point_px) << "nobody has stated it";
+  focal->setValue(0.02);
+  EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5) << "both, by the group alone";
 }
 
 TEST(InputSigmasDialogTest, UnchangedMember_KeepsItsExactValueAndStaysAssumed) {
@@ -102,12 +105,37 @@ TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
   EXPECT_NEAR(dialog.cameraFromEndEffector()->translation_m.z(), 0.41, 1e-12);
   EXPECT_EQ(dialog.cameraFromEndEffector()->translation_m.y(), 1.0 / 3.0);
   EXPECT_EQ(dialog.cameraFromEndEffector()->rotation.w(), 0.8);
-  dialog.findChild<QGroupBox*>(QStringLiteral("requirementStated"))->setChecked(true);
-  ASSERT_TRUE(dialog.requirement());
-  EXPECT_EQ(dialog.requirement()->lateral_mm, 0.4);
-  EXPECT_EQ(dialog.requirement()->projection_px, 5.0);
+  dialog.findChild<QDoubleSpinBox*>(QStringLiteral("lateral"))->setValue(0.4);
+  EXPECT_EQ(dialog.requirement(), (sessions::Requirement{{}, 0.4, {}, 5.0}))
+      << "the other limits stay unstated";
   dialog.findChild<QGroupBox*>(QStringLiteral("endEffectorStated"))->setChecked(false);
   EXPECT_FALSE(dialog.cameraFromEndEffector());
+}
+
+TEST(JudgementDialogTest, LimitsThatAreNotChanged_KeepTheirExactValuesOrStayUnstated) {
+  sessions::SessionCase session_case;
+  session_case.requirement = {1.0 / 3.0, std::nullopt, 0.0004, std::nullopt};
+  JudgementDialog dialog(session_case, nullptr);
+  auto* lateral = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("lateral"));
+  EXPECT_EQ(lateral->text(), QStringLiteral("not stated"));
+  EXPECT_EQ(dialog.requirement(), session_case.requirement);
+  lateral->setValue(0.5);
+  EXPECT_EQ(dialog.requirement(), (sessions::Requirement{1.0 / 3.0, 0.5, 0.0004, {}}));
+  lateral->setValue(0.0);
+  dialog.findChild<QDoubleSpinBox*>(QStringLiteral("normal"))->setValue(0.0);
+  EXPECT_EQ(dialog.requirement(), (sessions::Requirement{{}, {}, 0.0004, {}})) << "withdrawn";
+  EXPECT_FALSE(JudgementDialog(sessions::SessionCase(), nullptr).requirement());
+}
+
+TEST(UncertaintyDialogTest, FiguresThatAreNotChanged_KeepTheirExactValues) {
+  sessions::DeclaredUncertainty stated;
+  stated.translation_m = {1.0 / 300.0, 12.5, 0.0};
+  stated.rotation_deg = {1.0 / 3.0, 5.0, 180.0};
+  UncertaintyDialog dialog(stated, nullptr);
+  EXPECT_EQ(dialog.uncertainty(), stated);
+  dialog.findChild<QDoubleSpinBox*>(QStringLiteral("zAlong"))->setValue(2.0);
+  stated.translation_m.z() = 0.002;
+  EXPECT_EQ(dialog.uncertainty(), stated);
 }
 
 }  // namespace
