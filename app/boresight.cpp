@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -178,8 +179,11 @@ int runProgram(int argc, char** argv) {
   if (arguments.screenshot.workspace) window.workspaces().show(*arguments.screenshot.workspace);
   if (!arguments.files.empty()) window.takeFiles({arguments.files.begin(), arguments.files.end()});
   const int exit_code = QApplication::exec();
+  const bool ended = ui::endTasks();
   endLog("boresight", exit_code);
-  return exit_code;
+  if (ended) return exit_code;
+  window.document().close();  // and its lock with it
+  std::_Exit(exit_code);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/run/task_runner.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <exception>
 #include <mutex>
 #include <new>
+#include <set>
 #include <thread>
 
 #include <QCoreApplication>
@@ -34,14 +36,20 @@ class TaskRunner::Thread {
   explicit Thread(TaskRunner& owner) : owner_(owner), thread_([this] { loop(); }) {}
 
   ~Thread() {
+    quit();
+    thread_.join();
+  }
+
+  void quit() {
     {
       const std::lock_guard lock(mutex_);
       quit_ = true;
       running_.stop.request_stop();
     }
     wake_.notify_all();
-    thread_.join();
   }
+  bool isQuitting() const { return quit_; }
+  bool hasEnded() const { return ended_; }
 
   void add(Item item) {
     {
@@ -105,6 +113,7 @@ class TaskRunner::Thread {
             failed = item.failed,
             error] { owner->end(kind, number, *broken ? QString() : error, failed); });
     }
+    ended_ = true;
   }
 
   /// Why it failed, or nothing.
@@ -152,19 +161,42 @@ class TaskRunner::Thread {
   TaskRunner& owner_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  bool quit_ = false;
+  std::atomic<bool> quit_ = false;
+  std::atomic<bool> ended_ = false;
   std::deque<Item> queue_;
   std::deque<std::function<void()>> reports_;  ///< not yet taken by the owner
   Item running_;                               ///< its key and stop source
   std::thread thread_;                         ///< last: it starts when everything above is there
 };
 
-TaskRunner::TaskRunner(QObject* parent)
-    : QObject(parent), thread_(std::make_unique<Thread>(*this)) {}
+namespace {
 
-TaskRunner::~TaskRunner() = default;
+/// Of the UI's thread.
+std::set<TaskRunner*>& allRunners() {
+  static std::set<TaskRunner*> runners;
+  return runners;
+}
+
+}  // namespace
+
+TaskRunner::TaskRunner(QObject* parent)
+    : QObject(parent), thread_(std::make_unique<Thread>(*this)) {
+  allRunners().insert(this);
+}
+
+TaskRunner::~TaskRunner() { allRunners().erase(this); }
+
+void TaskRunner::endAll() {
+  for (const TaskRunner* runner : allRunners()) runner->thread_->quit();
+}
+
+bool TaskRunner::allEnded() {
+  return std::ranges::all_of(allRunners(),
+                             [](const TaskRunner* runner) { return runner->thread_->hasEnded(); });
+}
 
 void TaskRunner::add(std::uint64_t kind, Work work, Failure failed) {
+  if (thread_->isQuitting()) return;
   ++count_;
   if (kind != 0) newest_[kind] = count_;
   ++pending_;
@@ -180,7 +212,10 @@ void TaskRunner::cancel(const TaskKind& kind) {
   thread_->cancel(kind.number_);
 }
 
-void TaskRunner::customEvent(QEvent*) { thread_->takeReport()(); }
+void TaskRunner::customEvent(QEvent*) {
+  const std::function<void()> report = thread_->takeReport();
+  if (!thread_->isQuitting()) report();
+}
 
 bool TaskRunner::isUsed(std::uint64_t kind, std::uint64_t number) const {
   if (kind == 0) return true;

@@ -78,6 +78,12 @@ class TaskRunner : public QObject {
   void cancel(const TaskKind& kind);
   bool isBusy() const { return pending_ > 0; }
 
+  /// For the end of the program: the tasks of every runner are asked to stop, those that wait are
+  /// dropped, and no runner takes or delivers anything from now on.
+  static void endAll();
+  /// Whether every runner has ended after endAll(): a file that is being read is read first.
+  static bool allEnded();
+
  Q_SIGNALS:
   void busyChanged();
 

@@ -27,6 +27,7 @@
 #include "ui/style/icons.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/widgets/wait_box.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/main_window.h"
 #include "ui/workspaces/workspaces.h"
@@ -254,6 +255,14 @@ bool workOn(MainWindow& window, const QString& annotation) {
 }
 
 }  // namespace
+
+bool endTasks() {
+  TaskRunner::endAll();
+  return waitOrLeave(nullptr,
+                     QObject::tr("Boresight waits for the end of a file that is being read or "
+                                 "written. Its folder may not answer."),
+                     QObject::tr("Close without waiting"), &TaskRunner::allEnded);
+}
 
 double imageShare(MainWindow& window) {
   ImageView& view = window.image().view();

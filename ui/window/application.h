@@ -42,6 +42,11 @@ struct ScreenshotOrder {
   double* share = nullptr;  ///< receives the share of the window that shows the image
 };
 
+/// After the window was closed: ends the program's tasks. What is being read or written is waited
+/// for, which a box reports when it takes long. False: the operator does not wait; threads still
+/// run, so that the program may only be left by std::_Exit.
+bool endTasks();
+
 /// Share of the window's area, 0 .. 1, that shows the image.
 double imageShare(MainWindow& window);
 

@@ -176,6 +176,26 @@ TEST_F(TaskRunnerTest, TaskOfWhichAReportThrows_EndsOnceAndIsStopped) {
   EXPECT_EQ(taken_, std::vector<int>{2});
 }
 
+TEST_F(TaskRunnerTest, EndOfAllRunners_DropsWhatWaitsAndIsKnown) {
+  std::promise<void> begun;
+  runner_.queue(
+      [&](const std::stop_token&) {
+        begun.set_value();
+        gate_.get_future().wait();
+        return 1;
+      },
+      take_, fail_);
+  runner_.queue(valueOf(2), take_, fail_);
+  begun.get_future().wait();
+  TaskRunner::endAll();
+  EXPECT_FALSE(TaskRunner::allEnded()) << "it is as if a file were being read";
+  runner_.queue(valueOf(3), take_, fail_);
+  gate_.set_value();
+  EXPECT_TRUE(QTest::qWaitFor(&TaskRunner::allEnded, kPatienceMs));
+  QApplication::processEvents();
+  EXPECT_TRUE(taken_.empty());
+}
+
 TEST(TaskRunner, Destruction_WhileATaskRuns_IsSafe) {
   std::promise<void> begun;
   TaskRunner runner;
