@@ -306,9 +306,7 @@ void SessionDocument::save() {
   std::error_code error;
   if (fs::exists(file_, error) &&
       sha256Text(readFileBytes(file_, SIZE_MAX, FileUse::kSession)) != file_sha256_)
-    throw OutputError(file_,
-                      "another program has changed the file since it was opened; save under "
-                      "another name");
+    throw FileChangedError(file_);
   const std::string text = sessionFileText(session_, file_);
   std::string sha256 = sha256Text(text);
   try {

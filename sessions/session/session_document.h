@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_lock.h"
 #include "sessions/session/session.h"
 #include "sessions/session/session_journal.h"
@@ -18,6 +19,15 @@ namespace boresight::sessions {
 /// kEditAndSave: edits are not written to the journal. When save() fails, the session file and a
 /// journal of recovered edits are as they were before the document was opened.
 enum class Access { kEdit, kEditAndSave, kReadOnly };
+
+/// The session's file is not as it was read or written here last: nothing was written.
+class FileChangedError : public OutputError {
+ public:
+  explicit FileChangedError(const std::filesystem::path& file)
+      : OutputError(file,
+                    "another program has changed the file since it was opened; save under another "
+                    "name") {}
+};
 
 /// An open session: its value, its file, and its journal and lock. An edit is on the disk before
 /// `apply` returns, except with kEditAndSave; views show session(). Not thread-safe.
@@ -55,8 +65,8 @@ class SessionDocument {
   /// equal to the current value is no edit.
   void apply(const Session& next, const std::string& text);
 
-  /// Writes the file and drops the journal. OutputError, also when another program has changed the
-  /// file meanwhile; then file and journal are unchanged.
+  /// Writes the file and drops the journal. OutputError; FileChangedError when another program has
+  /// changed the file meanwhile. Then file and journal are unchanged.
   void save();
   /// Resets the session to the content of the file, with nothing left to recover. OutputError when
   /// the document is read-only.

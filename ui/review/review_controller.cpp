@@ -28,7 +28,7 @@ bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase current) 
 
 ReviewController::ReviewController(Document& document, ViewState& state)
     : document_(document), state_(state) {
-  connect(&document_, &Document::opened, this, [this] { reasons_.clear(); });
+  connect(&document_, &Document::left, this, [this] { reasons_.clear(); });
   state_.onChange(ViewChange::kOtherCase, this, [this] { wanted_source_.reset(); });
   connectEach(document_, this, &ReviewController::follow, &Document::opened, &Document::changed);
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);

@@ -164,7 +164,7 @@ QVariant ChecksModel::look(const sessions::Check& row, int /*column*/, int role)
 ReviewPanel::ReviewPanel(Document& document, ViewState& state) : controller_(document, state) {
   ui_.setupUi(this);
   decision_ = new DecisionForm(controller_);
-  connect(&document, &Document::opened, decision_, &DecisionForm::forgetName);
+  connect(&document, &Document::left, decision_, &DecisionForm::forgetName);
   ui_.splitter->addWidget(decision_);
   ui_.splitter->setStretchFactor(0, 1);
   ui_.splitter->setSizes({600, 200});

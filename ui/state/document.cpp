@@ -71,8 +71,13 @@ const std::optional<sessions::Recovery>* Document::recovery() const {
 }
 
 void Document::report(const std::exception& error) {
-  const bool writes = dynamic_cast<const sessions::OutputError*>(&error) != nullptr;
-  Q_EMIT(this->*(writes ? &Document::writeFailed : &Document::failed))(sentenceOf(error));
+  const QString sentence = sentenceOf(error);
+  if (dynamic_cast<const sessions::FileChangedError*>(&error) != nullptr)
+    Q_EMIT changedElsewhere(sentence);
+  else if (dynamic_cast<const sessions::OutputError*>(&error) != nullptr)
+    Q_EMIT writeFailed(sentence);
+  else
+    Q_EMIT failed(sentence);
 }
 
 template <class Action>
@@ -107,6 +112,7 @@ void Document::become(sessions::SessionDocument&& document, bool untitled, Forme
   for (const std::string& text : document_->notices())
     notices_ << tr("%1: %2.").arg(QString::fromStdString(document_->file().filename().string()),
                                   QString::fromStdString(text));
+  Q_EMIT left();
 }
 
 /// The open session: this program holds its lock already.
@@ -169,6 +175,7 @@ bool Document::close(Former former) {
     history_.reset();
     document_.reset();
     untitled_ = false;
+    Q_EMIT left();
   });
 }
 

@@ -88,12 +88,18 @@ class Document : public QObject {
  Q_SIGNALS:
   /// It is about to be saved, left, or changed by its history: gestures under way become edits now.
   void aboutToChange();
+  /// The session that was open, if any, is left; `opened` follows. A session whose edits are
+  /// recovered or declined, or whose file is read again, is not left.
+  void left();
   void opened();   ///< another document is open, or none
   void changed();  ///< its value, or whether it is saved, has changed
   void failed(const QString& message);
   /// Writing in the session's folder failed (a full disk, a read-only folder); one sentence. The
   /// data is not lost: saveAs() writes it elsewhere.
   void writeFailed(const QString& message);
+  /// It was not saved: another program has changed the file; one sentence. saveAs() keeps the
+  /// changes, open() of the same file with Former::kDiscard reads it again.
+  void changedElsewhere(const QString& message);
 
  private:
   using Signal = void (Document::*)();

@@ -48,6 +48,7 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
       store_(store),
       tasks_(tasks),
       of_document_(of_document) {
+  connect(&document_, &Document::left, this, [this] { endRuns(tr("its session was closed")); });
   connect(&document_, &Document::opened, this, &CaseController::documentOpened);
   connect(&document_, &Document::changed, this, &CaseController::documentChanged);
   connect(&run_, &RunController::snapshotChanged, this, [this] {
@@ -83,14 +84,19 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
 
 QString CaseController::caseId() const { return fromText(openId()); }
 
-void CaseController::documentOpened() {
+/// They are of the session as it was when they began.
+void CaseController::endRuns(const QString& why) {
   if (batch_.isActive())
-    Q_EMIT noted(tr("The batch run was stopped: its session was closed."));
+    Q_EMIT noted(tr("The batch run was stopped: %1.").arg(why));
   else if (isWorking())
-    Q_EMIT noted(tr("The run of %1 was stopped: its session was closed.").arg(caseId()));
+    Q_EMIT noted(tr("The run of %1 was stopped: %2.").arg(caseId(), why));
   batch_.stop();
   batch_.dropSummary();
   leaveCase();
+}
+
+void CaseController::documentOpened() {
+  endRuns(tr("its session was read again"));  // of one that is left they have ended
   asked_.reset();
   state_.setCase(nullptr);  // not of another document, nor of this one before its recovery
   openFirst();

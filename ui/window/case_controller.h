@@ -114,6 +114,7 @@ class CaseController : public QObject {
 
  private:
   void documentOpened();
+  void endRuns(const QString& why);
   void reportBatch();
   void documentChanged();
   void leaveCase();

@@ -133,7 +133,8 @@ void MainWindow::connectAll() {
           [this] { workspaces_->reveal(QStringLiteral("queue")); });
   connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
     statusBar()->showMessage(message, kNote_ms);
-    if (!parts_.state.currentCase()) image().setHint(message);  // where the operator looks
+    if (parts_.state.currentCase()) return;
+    message.isEmpty() ? showHint() : image().setHint(message);  // where the operator looks
   });
   connect(&parts_.document, &Document::opened, this, &MainWindow::showDocument);
   connect(&parts_.document, &Document::changed, this, &MainWindow::showState);
@@ -142,6 +143,10 @@ void MainWindow::connectAll() {
     if (!quiet_) files_->offerSavingElsewhere(message);
   };
   connect(&parts_.document, &Document::writeFailed, this, offer_elsewhere);
+  connect(&parts_.document, &Document::changedElsewhere, this, [this](const QString& message) {
+    last_message_ = message;
+    if (!quiet_) files_->offerReadingAgain(message);
+  });
   connect(&parts_.store, &RunStore::storeFailed, this, [this, offer_elsewhere](const QString& m) {
     showState();  // it can be saved now
     offer_elsewhere(m);

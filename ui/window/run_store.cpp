@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <QEventLoop>
-#include <QTimer>
-
 #include "sessions/session/case_run.h"
 #include "sessions/session/views_run.h"
 #include "ui/models/text.h"
@@ -14,8 +11,6 @@
 
 namespace boresight::ui {
 namespace {
-
-constexpr int kStorePatience_ms = 100;  ///< between looks whether a store has failed
 
 /// Written into the session's folder: one, or one of every view.
 std::vector<sessions::RunRecord> recordsOf(const EndedRun& ended,
@@ -31,7 +26,7 @@ std::vector<sessions::RunRecord> recordsOf(const EndedRun& ended,
 }  // namespace
 
 RunStore::RunStore(Document& document) : document_(document), of_document_(document, runner_) {
-  connect(&document_, &Document::opened, this, [this] { waiting_.clear(); });
+  connect(&document_, &Document::left, this, [this] { waiting_.clear(); });
   connect(&document_, &Document::changed, this, &RunStore::storeAgain);
   connect(&of_document_, &DocumentTasks::failed, this, &RunStore::failed);
 }
@@ -127,20 +122,17 @@ QStringList RunStore::unstored() const {
   return ids;
 }
 
+QStringList RunStore::waiting() const {
+  QStringList ids;
+  for (const WaitingPtr& waiting : waiting_) ids << fromText(waiting->run.case_id);
+  return ids;
+}
+
 QString RunStore::unstoredReason() const {
   QString reason;
   for (const WaitingPtr& waiting : waiting_)
     if (!waiting->storing) reason = waiting->problem;
   return reason;
-}
-
-void RunStore::finish() {
-  QEventLoop loop;
-  QTimer patience;
-  connect(&runner_, &TaskRunner::busyChanged, &loop, &QEventLoop::quit);
-  connect(&patience, &QTimer::timeout, &loop, &QEventLoop::quit);
-  patience.start(kStorePatience_ms);
-  while (isStoring() && runner_.isBusy()) loop.exec(QEventLoop::ExcludeUserInputEvents);
 }
 
 }  // namespace boresight::ui

@@ -40,12 +40,14 @@ class RunStore : public QObject {
   void keep(EndedRun ended);
   /// Cases of ended runs that could not be stored.
   QStringList unstored() const;
+  /// The same with those that are being stored.
+  QStringList waiting() const;
   /// Why the last of them could not be stored, one sentence; or empty.
   QString unstoredReason() const;
+  /// The thread in which runs are written.
+  TaskRunner& runner() { return runner_; }
   /// Whether a run that has ended is being stored.
   bool isStoring() const;
-  /// Waits until each run that has ended is stored in the session, or cannot be stored.
-  void finish();
 
  Q_SIGNALS:
   /// The session lists the run; `of_batch`: of a batch.

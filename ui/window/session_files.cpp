@@ -19,6 +19,7 @@
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/views/display_image.h"
+#include "ui/widgets/wait_box.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/change_input.h"
@@ -68,10 +69,9 @@ QString meshUnitText(const char* unit, const std::optional<double>& extent) {
 
 SessionFiles::SessionFiles(QWidget& window, WindowParts& parts)
     : QObject(&window), window_(window), parts_(parts) {
-  // Tasks of the session that is left end without a result; those of one that is read again go on.
-  connect(&parts_.document, &Document::opened, this, [this] {
-    if (opening_ != parts_.document.openings()) requested_.clear();
-    opening_ = parts_.document.openings();
+  // Tasks of the session that is left end without a result.
+  connect(&parts_.document, &Document::left, this, [this] {
+    if (!std::exchange(requested_, {}).empty()) Q_EMIT noted({});
   });
 }
 
@@ -138,7 +138,8 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
 }
 
 void SessionFiles::collect(const DroppedFiles& files, bool amends) {
-  if (amends) requested_.erase(collection_);
+  if (amends && requested_.erase(collection_) && requested_.empty())
+    Q_EMIT noted({});  // no files are read for a case any more
   collected_ = files;
   ++collection_;
   judgeCollected();
@@ -367,7 +368,7 @@ void SessionFiles::makeCase(const Request& request) {
         return session_case;
       },
       [this, request](sessions::SessionCase session_case) {
-        if (!isRequested(request)) return;
+        if (!isRequested(request)) return;  // withdrawn, with its note
         const bool taken = takeCase(std::move(session_case));
         requested_.erase(request.collection);
         // The collected files stay when they make no case yet: a further file may be needed. So do
@@ -485,8 +486,39 @@ void SessionFiles::offerSavingElsewhere(const QString& reason) {
   if (box.clickedButton() == elsewhere) saveAs();
 }
 
+void SessionFiles::offerReadingAgain(const QString& reason) {
+  const Document& document = parts_.document;
+  const int opening = document.openings();
+  QMessageBox box(QMessageBox::Warning, tr("Boresight"), reason, QMessageBox::NoButton, &window_);
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box.setInformativeText(
+      document.isModified()
+          ? tr("Nothing was written: the file is as the other program left it, all changes are "
+               "still in this window. Save them under another name; reading the file again drops "
+               "them.")
+          : tr("Nothing was written: the file is as the other program left it. This window has no "
+               "unsaved changes."));
+  noteInLog(box);
+  QAbstractButton* elsewhere = box.addButton(tr("Save as..."), QMessageBox::AcceptRole);
+  QAbstractButton* again = box.addButton(tr("Read again"), QMessageBox::DestructiveRole);
+  box.addButton(QMessageBox::Close);
+  box.exec();
+  if (opening != document.openings()) return;  // it was about another session
+  if (box.clickedButton() == elsewhere) saveAs();
+  if (box.clickedButton() == again) open(document.file(), Former::kDiscard);
+}
+
+/// Runs are stored in the session that they were run from.
+void SessionFiles::finishStoring() {
+  waitOrLeave(
+      &window_,
+      tr("Runs of %1 are being written next to %2. Its folder may not answer.")
+          .arg(parts_.store.waiting().join(QStringLiteral(", ")), text(parts_.document.file())),
+      tr("Do not wait"), [this] { return !parts_.store.isStoring(); });
+}
+
 bool SessionFiles::mayLoseRuns() {
-  const QStringList runs = parts_.store.unstored();
+  const QStringList runs = parts_.store.waiting();
   if (runs.isEmpty()) return true;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"),
                   tr("Runs of %1 are not stored; they exist only in this window.")
@@ -496,13 +528,13 @@ bool SessionFiles::mayLoseRuns() {
   noteInLog(box);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   const int answer = box.exec();
-  if (box.clickedButton() == elsewhere && saveAs()) parts_.store.finish();
-  return answer == QMessageBox::Discard || parts_.store.unstored().isEmpty();
+  if (box.clickedButton() == elsewhere && saveAs()) finishStoring();
+  return answer == QMessageBox::Discard || parts_.store.waiting().isEmpty();
 }
 
 std::optional<Former> SessionFiles::mayLeave() {
   Q_EMIT parts_.document.aboutToChange();  // or a gesture under way would be lost
-  parts_.store.finish();                   // in the session that they were run from
+  finishStoring();
   if (!mayLoseRuns()) return std::nullopt;
   const Document& document = parts_.document;
   const std::filesystem::path asked = document.file();
@@ -518,7 +550,10 @@ std::optional<Former> SessionFiles::mayLeave() {
   const int answer = box.exec();
   if (document.file() != asked) return std::nullopt;  // a task has opened another one meanwhile
   if (answer == QMessageBox::Discard) return Former::kDiscard;
-  return answer == QMessageBox::Save && save() ? std::optional(Former::kKeep) : std::nullopt;
+  // Where saving failed it may have been saved under another name.
+  const bool saved = answer == QMessageBox::Save &&
+                     (save() || (document.file() != asked && !document.isModified()));
+  return saved ? std::optional(Former::kKeep) : std::nullopt;
 }
 
 void SessionFiles::offerRecovery(const QString& notices) {

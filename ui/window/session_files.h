@@ -92,6 +92,9 @@ class SessionFiles : public QObject {
   bool saveAs();
   /// Reports why nothing can be written in the session's folder, and offers to save it elsewhere.
   void offerSavingElsewhere(const QString& reason);
+  /// Reports that another program has changed the session's file, and offers to save under another
+  /// name or to read the file again.
+  void offerReadingAgain(const QString& reason);
 
  Q_SIGNALS:
   /// An action failed; one sentence.
@@ -129,6 +132,7 @@ class SessionFiles : public QObject {
   std::optional<InputKind> nextKind() const;
   void measureMesh();
   bool askForUnits(DroppedFiles& files);
+  void finishStoring();
   bool mayLoseRuns();
 
   QWidget& window_;
@@ -136,7 +140,6 @@ class SessionFiles : public QObject {
   DroppedFiles collected_;   ///< of a case that is not complete yet
   int collection_ = 0;       ///< another number after each change of the collected files
   std::set<int> requested_;  ///< collections of which a case is being made
-  int opening_ = 0;          ///< Document::openings() of the session that they belong to
   sessions::JudgedFiles judged_;
   QImage picture_;
   QString kept_;  ///< names of the files from an earlier drop

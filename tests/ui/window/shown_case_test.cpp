@@ -20,7 +20,9 @@
 #include "ui/panels/run/pose_panel.h"
 #include "ui/review/pose_export.h"
 #include "ui/run/export_runner.h"
+#include "ui/window/application.h"
 #include "ui/window/input_findings.h"
+#include "ui/window/session_files.h"
 #include "ui/window/verdict_controller.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/uncertainty_dialog.h"
@@ -333,12 +335,27 @@ TEST_F(ShownCaseTest, RunWhoseTraceIsMissing_IsReportedWhereTheRunWouldBe) {
   ASSERT_TRUE(reopen());
   ASSERT_TRUE(window_.state().missingRun());
   EXPECT_EQ(window_.state().shownRun(), run.digest);
-  const Verdict& verdict = window_.findChild<VerdictBar*>()->verdict();
-  EXPECT_EQ(verdict.head, QStringLiteral("There is no run to show."));
-  EXPECT_EQ(verdict.sentence, window_.state().missingRun()->problem);
+  const auto verdict = [this] { return window_.findChild<VerdictBar*>()->verdict(); };
+  EXPECT_TRUE(wait([&] { return verdict().head == QStringLiteral("There is no run to show."); }));
+  EXPECT_EQ(verdict().sentence, window_.state().missingRun()->problem);
   choose(b());
   EXPECT_FALSE(window_.state().missingRun());
   ASSERT_TRUE(showsCase(b()));
+}
+
+TEST_F(ShownCaseTest, RunThatFailsAtItsStart_IsReportedWhereTheRunWouldBe) {
+  openRun();
+  const auto seedless = [](sessions::SessionCase& changed) {
+    changed.has_seed = false;
+    changed.camera_from_station_seed = Pose();
+  };
+  ASSERT_TRUE(window_.document().edit(sessions::withChanged(session(), a(), seedless),
+                                      QStringLiteral("Remove the seed")));
+  ASSERT_TRUE(rests());
+  window_.cases().runAgain();
+  ASSERT_TRUE(window_.state().missingRun());
+  EXPECT_EQ(window_.state().shownRun(), "");
+  EXPECT_EQ(window_.state().missingRun()->problem, window_.lastMessage());
 }
 
 /// The last run of a case that was opened came over one that was made meanwhile.
@@ -396,7 +413,74 @@ TEST_F(ShownCaseTest, SessionThatIsLeft_EndsItsRunsWithAMessage) {
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
   window_.document().close();
-  EXPECT_TRUE(test::has(noted, ("The run of " + a() + " was stopped").c_str()));
+  EXPECT_TRUE(
+      test::has(noted, ("The run of " + a() + " was stopped: its session was closed").c_str()));
+}
+
+TEST_F(ShownCaseTest, SessionThatIsReadAgain_EndsItsRunsWithATrueMessage) {
+  QString noted;
+  QObject::connect(&window_.cases(), &CaseController::noted, &window_,
+                   [&](const QString& text) { noted = text; });
+  openExample();
+  window_.cases().runAll({fromText(a()), fromText(b())});
+  ASSERT_TRUE(window_.document().open(file_, Former::kDiscard));
+  EXPECT_TRUE(test::has(noted, "The batch run was stopped: its session was read again."));
+  ASSERT_TRUE(rests());
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
+  ASSERT_TRUE(window_.document().open(file_, Former::kDiscard));
+  EXPECT_TRUE(test::has(noted, "was stopped: its session was read again."));
+  EXPECT_FALSE(noted.contains(QStringLiteral("closed")));
+}
+
+TEST_F(ShownCaseTest, RunThatCouldNotBeStored_StaysWhileItsSessionIsReadAgain) {
+  openExample();
+  const std::filesystem::path runs = sessions::runsFolderOf(file_);
+  std::ofstream(runs) << "not a folder";
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return !window_.store().unstored().isEmpty(); }));
+  ASSERT_TRUE(window_.document().open(file_, Former::kDiscard));
+  EXPECT_EQ(window_.store().unstored(), QStringList{fromText(a())});
+  std::filesystem::remove(runs);
+  ASSERT_TRUE(window_.document().save());
+  EXPECT_TRUE(wait([&] { return session().runs.size() == 1; }));
+}
+
+TEST_F(ShownCaseTest, ClosingWhileAFileIsRead_SaysSoAndCanBeDoneWithoutWaiting) {
+  openExample();
+  HeldReader reader(window_.tasks());
+  QString told;
+  {
+    const test::ModalAnswer<QMessageBox> leaves{[&told](QMessageBox& box) {
+      told = box.text();
+      box.findChild<QAbstractButton*>(QStringLiteral("leave"))->click();
+    }};
+    EXPECT_FALSE(endTasks());
+  }
+  EXPECT_TRUE(test::has(told, "being read"));
+  reader.gate.set_value();
+  EXPECT_TRUE(endTasks());
+}
+
+TEST_F(ShownCaseTest, RunWhoseFolderDoesNotAnswer_IsNotWaitedForWithoutAWord) {
+  openExample();
+  HeldReader writer(window_.store().runner());
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.store().isStoring(); }));
+  QStringList told;
+  {
+    const test::ModalAnswer<QMessageBox> answer{[&told](QMessageBox& box) {
+      told << box.text();
+      auto* leave = box.findChild<QAbstractButton*>(QStringLiteral("leave"));
+      (leave ? leave : box.button(QMessageBox::Cancel))->click();
+    }};
+    EXPECT_FALSE(window_.findChild<SessionFiles*>()->mayLeave());
+  }
+  ASSERT_EQ(told.size(), 2);
+  EXPECT_TRUE(test::has(told[0], "being written"));
+  EXPECT_TRUE(test::has(told[1], "are not stored"));
+  writer.gate.set_value();
+  EXPECT_TRUE(wait([&] { return session().runs.size() == 1; }));
 }
 
 TEST_F(ShownCaseTest, ListOfCases_IsThatOfTheSessionAlsoWithoutCases) {
@@ -466,12 +550,14 @@ TEST_F(ShownCaseTest, WaitForARunThatIsBeingStored_SleepsMeanwhile) {
     const QObject here;
     QObject::connect(QAbstractEventDispatcher::instance(), &QAbstractEventDispatcher::awake, &here,
                      [&rounds] { ++rounds; });
-    window_.store().finish();
+    const test::ModalAnswer<QMessageBox> discards{
+        [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); }};
+    EXPECT_EQ(window_.findChild<SessionFiles*>()->mayLeave(), Former::kDiscard);
     EXPECT_FALSE(window_.store().isStoring());
   });
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return rounds != none && resting(); }));
-  EXPECT_LT(rounds, 100);
+  EXPECT_LT(rounds, 300);
 }
 
 TEST_F(ShownCaseTest, ClosingDuringAnExport_Asks) {

@@ -3,11 +3,14 @@
 // keeps.
 #include <unistd.h>
 
+#include "sessions/io/files/file_lock.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 #include "tests/ui/window/desktop.h"
 #include "tests/ui/window/full_disk.h"
 #include "tests/ui/window_test.h"
+#include "ui/models/text.h"
+#include "ui/window/session_files.h"
 
 namespace boresight::ui {
 namespace {
@@ -160,6 +163,56 @@ TEST_F(TroubleTest, AFullDiskWhileSavingLeavesTheOldFileAndTheEdits) {
   EXPECT_EQ(seedIn(window_.document().session()), 0.25);
   ASSERT_TRUE(window_.document().save());
   EXPECT_EQ(seedIn(sessions::readSessionFile(file_).session), 0.25) << "there is room again";
+}
+
+/// Moves the first case's seed in the file, as a program that does not look at the lock.
+void changeByAnotherProgram(const std::filesystem::path& file, double x_m) {
+  std::filesystem::remove(sessions::lockFileOf(file));
+  Document other;
+  ASSERT_TRUE(other.open(file));
+  const std::string id = other.session().cases[0]->id;
+  const auto move = [x_m](sessions::SessionCase& changed) {
+    changed.camera_from_station_seed.translation_m.x() = x_m;
+  };
+  ASSERT_TRUE(other.edit(sessions::withChanged(other.session(), id, move), QStringLiteral("Move")));
+  ASSERT_TRUE(other.save());
+}
+
+TEST_F(TroubleTest, FileThatAnotherProgramHasChanged_IsKeptAndTheSessionSavedUnderAnotherName) {
+  openExample();
+  changeByAnotherProgram(file_, 0.75);
+  const std::string theirs = savedBytes();
+  setSeed(0.25);
+  {
+    Answers answers{QStringLiteral("Close")};
+    QTest::keySequence(&window_, QKeySequence::Save);
+    EXPECT_TRUE(test::has(answers.text, "another program has changed the file"));
+    EXPECT_TRUE(test::has(answers.text, "the file is as the other program left it"));
+    EXPECT_FALSE(answers.text.contains(QStringLiteral("last saved state")));
+    EXPECT_FALSE(answers.text.contains(QStringLiteral("Free space")));
+  }
+  EXPECT_TRUE(window_.document().isModified());
+  {
+    Answers answers{QStringLiteral("Save as..."), fromText(elsewhere_.string())};
+    window_.findChild<SessionFiles*>()->save();
+  }
+  EXPECT_EQ(savedBytes(), theirs);
+  EXPECT_EQ(window_.document().file(), elsewhere_);
+  EXPECT_EQ(seedIn(sessions::readSessionFile(elsewhere_).session), 0.25);
+}
+
+TEST_F(TroubleTest, FileThatAnotherProgramHasChanged_IsReadAgainWhereTheOperatorWantsThat) {
+  openExample();
+  changeByAnotherProgram(file_, 0.75);
+  setSeed(0.25);
+  Answers answers{QStringLiteral("Read again")};
+  QTest::keySequence(&window_, QKeySequence::Save);
+  EXPECT_EQ(seedIn(window_.document().session()), 0.75);
+  EXPECT_FALSE(window_.document().isModified());
+  ASSERT_TRUE(rests());
+  setSeed(0.5);
+  EXPECT_TRUE(window_.findChild<SessionFiles*>()->save());
+  EXPECT_EQ(seedIn(sessions::readSessionFile(file_).session), 0.5);
 }
 
 TEST_F(TroubleTest, AReadOnlyFolderIsToldAndTheSessionIsSavedElsewhere) {

@@ -164,6 +164,24 @@ TEST_F(StartPageTest, SessionThatIsReadAgainWhileACaseIsMade_GetsTheCase) {
   ASSERT_TRUE(wait([&] { return window_.document().session().cases.size() == 3 && resting(); }));
 }
 
+TEST_F(StartPageTest, RequestThatIsWithdrawn_LeavesNoNoteOfItsReading) {
+  QStringList notes;
+  QObject::connect(&files(), &SessionFiles::noted, &window_,
+                   [&notes](const QString& text) { notes << text; });
+  openExample();
+  window_.workspaces().show(Workspace::kStart);
+  window_.takeFiles({os_ / "image.png", os_ / "camera.json", os_ / "model.ply"});
+  files().setMeshUnit("m");
+  QObject::connect(&files(), &SessionFiles::noted, &window_, [this](const QString& text) {
+    if (text.startsWith(QStringLiteral("Reading"))) files().removeFile(InputKind::kCamera);
+  });
+  find<QPushButton>("makeSeedless").click();
+  ASSERT_TRUE(wait([&] { return files().collected().count() == 2 && resting(); }));
+  ASSERT_FALSE(notes.isEmpty());
+  EXPECT_EQ(notes.back(), QString());
+  EXPECT_EQ(window_.document().session().cases.size(), 2u);
+}
+
 /// The case of the files before the correction was added.
 TEST_F(StartPageTest, CorrectedFilesAndUnit_ReplaceTheRequestBefore) {
   int questions = 0;
