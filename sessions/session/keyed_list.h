@@ -17,11 +17,20 @@
 
 namespace boresight::sessions {
 
+/// The elements of a list are in no groups.
+struct NoGroup {
+  template <class T>
+  const std::string* operator()(const T& /*element*/) const {
+    return nullptr;
+  }
+};
+
 /// A list that finds the elements of a key, `KeyOf()(element)`, by an index: sessions hold tens of
-/// thousands of cases and runs, which are looked up by case. Copies share what is the same in both,
-/// as those of BlockMap. Otherwise like std::vector, but a change makes references invalid. After
-/// access to elements that may be changed find() searches the list, until it is copied.
-template <class T, class KeyOf>
+/// thousands of cases and runs, which are looked up by case. So are the elements of a group,
+/// `GroupOf()(element)` (nullptr: of none). Copies share what is the same in both, as those of
+/// BlockMap. Otherwise like std::vector, but a change makes references invalid. After access to
+/// elements that may be changed the list is searched, until it is copied.
+template <class T, class KeyOf, class GroupOf = NoGroup>
 class KeyedList {
   /// Elements by a number that grows along the list and stays with the element.
   using Values = BlockMap<std::uint64_t, T>;
@@ -38,7 +47,10 @@ class KeyedList {
     for (T& value : values) push_back(std::move(value));
   }
   KeyedList(const KeyedList& other)
-      : values_(other.values_), places_(other.places_), indexed_(other.indexed_) {
+      : values_(other.values_),
+        places_(other.places_),
+        groups_(other.groups_),
+        indexed_(other.indexed_) {
     index();
   }
   KeyedList(KeyedList&&) noexcept = default;
@@ -71,14 +83,10 @@ class KeyedList {
     index();
     const auto found = lastPlace(KeyOf()(value));
     if (found == places_.end()) return push_back(std::move(value));
-    values_.insert_or_assign(found->first.second, std::move(value));
+    replaceAt(found->first.second, std::move(value));
   }
   /// Replaces the element at an index.
-  void replace(std::size_t i, T value) {
-    const std::uint64_t number = values_.nth(i)->first;
-    forget(number);
-    putAt(number, std::move(value));
-  }
+  void replace(std::size_t i, T value) { replaceAt(values_.nth(i)->first, std::move(value)); }
   void erase(std::size_t i) {
     const std::uint64_t number = values_.nth(i)->first;
     forget(number);
@@ -110,7 +118,7 @@ class KeyedList {
   template <class Predicate>
   void eraseIf(const std::string& key, Predicate&& predicate) {
     index();
-    for (const std::uint64_t number : numbersOf(key)) {
+    for (const std::uint64_t number : numbersOf(places_, key, KeyOf())) {
       if (!predicate(values_.at(number))) continue;
       forget(number);
       values_.erase(number);
@@ -129,13 +137,11 @@ class KeyedList {
   }
   /// All elements of a key, in their order.
   std::vector<const T*> findAll(const std::string& key) const {
-    std::vector<const T*> found;
-    if (indexed_)
-      for (const std::uint64_t number : numbersOf(key)) found.push_back(&values_.at(number));
-    else
-      for (const T& value : *this)
-        if (KeyOf()(value) == key) found.push_back(&value);
-    return found;
+    return elementsOf(places_, key, KeyOf());
+  }
+  /// All elements of a group, in their order.
+  std::vector<const T*> findGroup(const std::string& group) const {
+    return elementsOf(groups_, group, GroupOf());
   }
 
   bool operator==(const KeyedList& other) const {
@@ -166,21 +172,38 @@ class KeyedList {
   Values& changeable() {
     indexed_ = false;
     places_.clear();
+    groups_.clear();
     return values_;
   }
   void index() {
     if (indexed_) return;
-    for (const auto& [number, value] : values_)
-      places_.insert_or_assign({hashOf(KeyOf()(value)), number}, {});
+    for (const auto& [number, value] : values_) note(number, value);
     indexed_ = true;
   }
   void putAt(std::uint64_t number, T value) {
-    if (indexed_) places_.insert_or_assign({hashOf(KeyOf()(value)), number}, {});
+    if (indexed_) note(number, value);
     values_.insert_or_assign(number, std::move(value));
+  }
+  void replaceAt(std::uint64_t number, T value) {
+    forget(number);
+    putAt(number, std::move(value));
+  }
+  /// Adds an element to the index.
+  void note(std::uint64_t number, const T& value) {
+    places_.insert_or_assign({hashOf(KeyOf()(value)), number}, {});
+    if (const std::string* group = GroupOf()(value))
+      groups_.insert_or_assign({hashOf(*group), number}, {});
   }
   /// Removes an element from the index.
   void forget(std::uint64_t number) {
-    if (indexed_) places_.erase({hashOf(KeyOf()(values_.at(number))), number});
+    if (!indexed_) return;
+    const T& value = values_.at(number);
+    places_.erase({hashOf(KeyOf()(value)), number});
+    if (const std::string* group = GroupOf()(value)) groups_.erase({hashOf(*group), number});
+  }
+  static bool equals(const std::string& name, const std::string& wanted) { return name == wanted; }
+  static bool equals(const std::string* name, const std::string& wanted) {
+    return name != nullptr && *name == wanted;
   }
   /// Of the last element of a key.
   auto lastPlace(const std::string& key) const {
@@ -190,18 +213,34 @@ class KeyedList {
       if (KeyOf()(values_.at(place->first.second)) == key) return place;
     return places_.end();
   }
-  /// Of all elements of a key.
-  std::vector<std::uint64_t> numbersOf(const std::string& key) const {
-    const std::size_t hash = hashOf(key);
+  /// Of all elements with a key, or of a group.
+  template <class NameOf>
+  std::vector<std::uint64_t> numbersOf(const Places& places, const std::string& name,
+                                       const NameOf& name_of) const {
+    const std::size_t hash = hashOf(name);
     std::vector<std::uint64_t> numbers;
-    for (auto place = places_.lower_bound({hash, 0});
-         place != places_.end() && place->first.first == hash; ++place)
-      if (KeyOf()(values_.at(place->first.second)) == key) numbers.push_back(place->first.second);
+    for (auto place = places.lower_bound({hash, 0});
+         place != places.end() && place->first.first == hash; ++place)
+      if (equals(name_of(values_.at(place->first.second)), name))
+        numbers.push_back(place->first.second);
     return numbers;
+  }
+  template <class NameOf>
+  std::vector<const T*> elementsOf(const Places& places, const std::string& name,
+                                   const NameOf& name_of) const {
+    std::vector<const T*> found;
+    if (indexed_)
+      for (const std::uint64_t number : numbersOf(places, name, name_of))
+        found.push_back(&values_.at(number));
+    else
+      for (const T& value : *this)
+        if (equals(name_of(value), name)) found.push_back(&value);
+    return found;
   }
 
   Values values_;
   Places places_;
+  Places groups_;
   bool indexed_ = true;
 };
 

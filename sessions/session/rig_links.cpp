@@ -27,13 +27,8 @@ bool passesStation(const FrameChain& chain) {
 
 /// A rig's name that no other rig has.
 std::string unusedRigId(const Session& session, const std::string& wanted) {
-  const auto taken = [&](const std::string& id) {
-    for (const auto& session_case : session.cases)
-      if (session_case->rig && session_case->rig->id == id) return true;
-    return false;
-  };
   std::string id = wanted;
-  for (int i = 2; taken(id); ++i) id = wanted + "-" + std::to_string(i);
+  for (int i = 2; !session.cases.findGroup(id).empty(); ++i) id = wanted + "-" + std::to_string(i);
   return id;
 }
 
@@ -43,10 +38,8 @@ std::vector<std::string> casesOfRig(const Session& session, const std::string& c
   std::vector<std::string> ids;
   const SessionCase* chosen = session.findCase(case_id);
   if (chosen == nullptr || !chosen->rig) return ids;
-  for (const auto& session_case : session.cases)
-    if (session_case->id != case_id && session_case->rig &&
-        session_case->rig->id == chosen->rig->id)
-      ids.push_back(session_case->id);
+  for (const auto* session_case : session.cases.findGroup(chosen->rig->id))
+    if ((*session_case)->id != case_id) ids.push_back((*session_case)->id);
   return ids;
 }
 

@@ -160,11 +160,17 @@ struct CaseIdOf {
   const std::string& operator()(const RunRecord& run) const { return run.case_id; }
 };
 
+struct RigIdOf {
+  const std::string* operator()(const SharedValue<SessionCase>& shared_value) const {
+    return shared_value->rig ? &shared_value->rig->id : nullptr;
+  }
+};
+
 /// Copies share their cases, annotations, decisions and runs (KeyedList, BlockMap).
 struct Session {
   std::string profile = "default";
   OptionList options;  ///< differences from the profile, in alphabetical order
-  KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
+  KeyedList<SharedValue<SessionCase>, CaseIdOf, RigIdOf> cases;
   BlockMap<std::string, SharedValue<Annotations>> annotations;  ///< by case; no element is empty
   /// Completed annotation rounds by case, in order of completion; no element is empty.
   BlockMap<std::string, SharedValue<AnnotationRounds>> rounds;

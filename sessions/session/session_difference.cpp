@@ -57,9 +57,8 @@ std::set<std::string> withCasesOfRigs(std::set<std::string> ids, const Session& 
     for (const std::string& id : ids)
       if (const SessionCase* found = session->findCase(id); found && found->rig)
         rigs.insert(found->rig->id);
-  if (rigs.empty()) return ids;
-  for (const auto& session_case : after.cases)
-    if (session_case->rig && rigs.contains(session_case->rig->id)) ids.insert(session_case->id);
+  for (const std::string& rig : rigs)
+    for (const auto* session_case : after.cases.findGroup(rig)) ids.insert((*session_case)->id);
   return ids;
 }
 

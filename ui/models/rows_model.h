@@ -114,6 +114,9 @@ class RowsModel : public QAbstractTableModel {
   }
 
  protected:
+  /// For changes on which no order depends: whoever changes the row updates the views.
+  Row& changeable(int row) { return rows_[static_cast<std::size_t>(row)]; }
+
   /// Value of a cell for a role; an invalid one leaves it to the column.
   virtual QVariant look(const Row& /*row*/, int /*column*/, int /*role*/) const { return {}; }
 

@@ -52,6 +52,7 @@ class QueueController : public QObject {
   /// One per case, in the order of the session.
   std::vector<QueueEntry> queue() const;
   QueueEntry queueAt(std::size_t place) const;
+  bool isChecked(std::size_t place) const { return rows_.isCurrent(place); }
   /// One per case that was run twice.
   std::vector<DifferenceEntry> differences() const;
   const DifferenceEntry& differenceAt(std::size_t place) const;

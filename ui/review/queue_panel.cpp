@@ -168,6 +168,7 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
 constexpr QSize kQueueThumbnail_px{76, 57};  // of a screen without scaling
 constexpr int kUsualQueueName = 18;          // letters
 constexpr int kAllColumns_px = 560;          // width from which all columns fit
+constexpr std::size_t kRowsAtOnce = 64;      // that are sorted again at once
 constexpr int kTroubleTab = 0;
 constexpr int kDifferencesTab = 1;
 
@@ -211,6 +212,8 @@ int QueueModel::rowOf(const QString& id) const {
   return firstRow(
       [wanted = id.toStdString()](const QueueEntry& entry) { return entry.row.case_id == wanted; });
 }
+
+void QueueModel::setUnchecked(int row) { changeable(row).checked = false; }
 
 QString QueueModel::reviewStatusText(const QueueRow& row) {
   const QString state = row.group == QueueGroup::kAwaits
@@ -260,8 +263,13 @@ QueuePanel::QueuePanel(Document& document)
   connect(&controller_, &QueueController::queueRowsChanged, this,
           [this](const std::vector<std::size_t>& places) {
             const QScopedValueRollback following(following_, true);
+            const bool few = places.size() <= kRowsAtOnce;
             for (const std::size_t place : places)
-              model_.setRow(static_cast<int>(place), controller_.queueAt(place));
+              if (few || controller_.isChecked(place))
+                model_.setRow(static_cast<int>(place), controller_.queueAt(place));
+              else
+                model_.setUnchecked(static_cast<int>(place));
+            ui_.queue->viewport()->update();
             showRows();
           });
   connect(&controller_, &QueueController::differenceRowsChanged, this,

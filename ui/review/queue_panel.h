@@ -39,6 +39,9 @@ class QueueModel : public RowsModel<QueueEntry> {
   QueueModel();
 
   /// -1 when there is none.
+  /// Marks a row whose checks are out of date. Its place stays: no signal is sent, and the view
+  /// must be updated.
+  void setUnchecked(int row);
   int rowOf(const QString& id) const;
   /// Review status of a case: a word after a sign whose shape is unique to the status.
   static QString reviewStatusText(const sessions::QueueRow& row);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stop_token>
 #include <string>
@@ -45,11 +48,12 @@ struct CaseWork {
 
 /// A value for each case of a session, made again on a worker thread when data of the case, of its
 /// rig or of the whole session has changed. Until then the former value is shown. An edit of one
-/// case costs the same in a session of any size.
+/// case costs the same in a session of any size; one of all cases, some 100 ns a case.
 template <class Value>
 class CaseByCase {
  public:
-  /// Places of changed values in the list; nullptr: other cases are listed.
+  /// Places in the list of values that have changed or are no longer current; nullptr: other cases
+  /// are listed.
   using Changed = std::function<void(const std::vector<std::size_t>* places)>;
 
   CaseByCase(CaseWork<Value> work, Changed changed)
@@ -69,13 +73,16 @@ class CaseByCase {
       for (const std::string& id : ids)
         if (const auto found = places_.find(id); found != places_.end())
           places.push_back(found->second);
+    if (places.size() == entries_.size()) clearWaiting();  // all are put into it again
     for (const std::size_t place : places) makeStale(place, places.size() <= kAtOnce);
+    order();
     if (lists || !places.empty()) changed_(lists ? nullptr : &places);
     goOn();
   }
   /// Drops all values.
   void clear() {
-    waiting_.clear();
+    clearWaiting();
+    stale_ = 0;
     places_.clear();
     entries_.clear();
     session_ = {};
@@ -92,7 +99,7 @@ class CaseByCase {
   const Value& value(std::size_t place) const { return entries_[place]->value; }
   /// Whether the value is of the session as it is.
   bool isCurrent(std::size_t place) const { return entries_[place]->current; }
-  std::size_t currentCount() const { return entries_.size() - waiting_.size(); }
+  std::size_t currentCount() const { return entries_.size() - stale_; }
   /// Of a listed case; else size().
   std::size_t placeOf(const std::string& id) const {
     const auto found = places_.find(id);
@@ -106,7 +113,14 @@ class CaseByCase {
     bool current = false;
     /// Another one after each change of what it depends on; never that of an earlier entry.
     std::uint64_t version = 0;
-    WaitingRank rank = {};  ///< while it waits
+  };
+  /// An entry that waits for its value, unless it has another version by now.
+  struct Waiting {
+    WaitingRank rank;
+    std::size_t place = 0;
+    std::uint64_t version = 0;
+
+    auto operator<=>(const Waiting&) const = default;
   };
   /// A value that is being made.
   struct Order {
@@ -131,7 +145,8 @@ class CaseByCase {
   void listAgain() {
     std::vector<std::unique_ptr<Entry>> former = std::exchange(entries_, {});
     std::unordered_map<std::string, std::size_t> former_places = std::exchange(places_, {});
-    waiting_.clear();
+    clearWaiting();
+    stale_ = 0;
     for (const auto& session_case : std::as_const(session_).cases) {  // else it loses its index
       const std::string& id = session_case->id;
       if (!isListed(id)) continue;
@@ -142,35 +157,79 @@ class CaseByCase {
               : std::move(former[found->second]));
       const std::size_t place = entries_.size() - 1;
       places_[id] = place;
-      if (!entries_[place]->current) wait(place);
+      if (entries_[place]->current) continue;
+      ++stale_;
+      wait(place);
     }
+    order();
   }
 
   void makeStale(std::size_t place, bool glances) {
     Entry& entry = *entries_[place];
-    if (!entry.current) waiting_.erase({entry.rank, place});
-    entry.current = false;
+    if (std::exchange(entry.current, false)) ++stale_;
     entry.version = ++versions_;
     if (glances)
       std::tie(entry.value, entry.current) =
           work_.glance(session_, entry.id, std::move(entry.value));
-    if (!entry.current) wait(place);
+    if (entry.current)
+      --stale_;
+    else
+      wait(place);
   }
+  void clearWaiting() {
+    waiting_.clear();
+    in_work_.clear();
+    ordered_ = 0;
+  }
+  /// Is ordered among those that wait by order().
   void wait(std::size_t place) {
-    Entry& entry = *entries_[place];
-    entry.rank = work_.rank ? work_.rank(entry.value) : WaitingRank();
-    waiting_.insert({entry.rank, place});
+    const Entry& entry = *entries_[place];
+    waiting_.push_back(
+        {work_.rank ? work_.rank(entry.value) : WaitingRank(), place, entry.version});
+  }
+  bool waits(const Waiting& waiting) const {
+    return waiting.place < entries_.size() && !entries_[waiting.place]->current &&
+           entries_[waiting.place]->version == waiting.version;
+  }
+  /// A heap, the smallest first. Entries that do not wait any more are skipped when it is their
+  /// turn; here, where they are many.
+  void order() {
+    if (waiting_.size() > 2 * entries_.size() + kOrders) {
+      std::erase_if(waiting_, [this](const Waiting& waiting) { return !waits(waiting); });
+      ordered_ = 0;
+    }
+    if (waiting_.size() > 2 * ordered_)
+      std::ranges::make_heap(waiting_, std::greater());
+    else
+      for (std::size_t end = ordered_ + 1; end <= waiting_.size(); ++end)
+        std::ranges::push_heap(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(end),
+                               std::greater());
+    ordered_ = waiting_.size();
+  }
+  std::optional<std::size_t> takeNext() {
+    while (!waiting_.empty()) {
+      std::ranges::pop_heap(waiting_, std::greater());
+      const Waiting next = waiting_.back();
+      waiting_.pop_back();
+      ordered_ = waiting_.size();
+      if (waits(next)) return next.place;
+    }
+    return std::nullopt;
   }
 
   void goOn() {
-    if (!active_ || making_ || waiting_.empty()) return;
-    making_ = true;
+    if (!active_ || making_) return;
     std::vector<Order> orders;
-    for (const auto& [rank, place] : waiting_) {
-      if (orders.size() == kOrders) break;
-      const Entry& entry = *entries_[place];
+    while (orders.size() < kOrders) {
+      const std::optional<std::size_t> place = takeNext();
+      if (!place) break;
+      const Entry& entry = *entries_[*place];
       orders.push_back({entry.id, entry.version, entry.value});
     }
+    if (orders.empty()) return;
+    making_ = true;
+    in_work_.clear();
+    for (const Order& order : orders) in_work_.emplace_back(order.id, order.version);
     runner_.queue(
         [session = session_, orders, make = work_.make](const std::stop_token& stop) {
           const auto end = std::chrono::steady_clock::now() + kSlice;
@@ -200,11 +259,17 @@ class CaseByCase {
       const std::size_t place = placeOf(order.id);
       if (place == entries_.size() || entries_[place]->version != order.version) continue;
       Entry& entry = *entries_[place];
-      waiting_.erase({entry.rank, place});
       entry.value = std::move(order.value);
       entry.current = true;
+      --stale_;
       places.push_back(place);
     }
+    for (const auto& [id, version] : std::exchange(in_work_, {})) {  // not made in its time
+      const std::size_t place = placeOf(id);
+      if (place == entries_.size() || entries_[place]->version != version) continue;
+      if (!entries_[place]->current) wait(place);
+    }
+    order();
     goOn();
     if (!places.empty()) changed_(&places);
   }
@@ -214,7 +279,10 @@ class CaseByCase {
   sessions::Session session_;
   std::vector<std::unique_ptr<Entry>> entries_;
   std::unordered_map<std::string, std::size_t> places_;  ///< by id
-  std::set<std::pair<WaitingRank, std::size_t>> waiting_;
+  std::vector<Waiting> waiting_;                         ///< a heap up to ordered_
+  std::size_t ordered_ = 0;
+  std::size_t stale_ = 0;                                       ///< entries that are not current
+  std::vector<std::pair<std::string, std::uint64_t>> in_work_;  ///< of the task under way
   bool active_ = false;
   bool making_ = false;
   std::uint64_t tasks_ = 0;

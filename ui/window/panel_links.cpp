@@ -66,7 +66,8 @@ PanelLinks::PanelLinks(WindowParts& parts, const WindowDocks& docks, QObject* pa
       nudged_(new PoseRenderer(this)),
       rows_(caseRowWork(), [this](const std::vector<std::size_t>* places) {
         if (!places) return showCases();
-        for (const std::size_t place : *places) showCase(place);
+        for (const std::size_t place : *places)
+          if (rows_.isCurrent(place)) showCase(place);  // a row that is out of date stays shown
       }) {
   linkCases();
   linkConfiguration();

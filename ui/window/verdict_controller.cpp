@@ -8,6 +8,7 @@
 #include "sessions/checks/checks.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
+#include "ui/panels/case/cases_panel.h"
 #include "ui/panels/run/nudge_gizmo.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/quality_controller.h"
@@ -30,6 +31,8 @@
 
 namespace boresight::ui {
 namespace {
+
+constexpr int kMostAsked = 64;  ///< cases whose decision is looked at for the next case
 
 QString decisionText(const sessions::ReviewStatus& status) {
   if (!status.holds()) return {};
@@ -58,6 +61,10 @@ VerdictController::VerdictController(WindowParts& parts, const WindowDocks& dock
       window_(window) {
   soon_.setSingleShot(true);
   soon_.setInterval(0);
+  // After an edit of all cases their rows are made again in the background.
+  connect(&docks_.cases.model(), &QAbstractItemModel::dataChanged, this, [this] {
+    if (!has_next_) soon_.start();
+  });
   connect(&soon_, &QTimer::timeout, this, &VerdictController::update);
   connect(&bar_, &VerdictBar::stepRequested, this, &VerdictController::performShown);
   follow();
@@ -67,7 +74,7 @@ VerdictController::VerdictController(WindowParts& parts, const WindowDocks& dock
 void VerdictController::follow() {
   const auto soon = [this] { soon_.start(); };
   parts_.state.onChange(ViewChange::kAll, this, soon);
-  connect(&parts_.document, &Document::opened, this, [this] { taken_.clear(); });
+  connect(&parts_.document, &Document::left, this, [this] { taken_.clear(); });
   connectEach(parts_.document, this, soon, &Document::opened, &Document::changed);
   connectEach(parts_.cases, this, soon, &CaseController::batchChanged,
               &CaseController::stalenessChanged, &CaseController::failed);
@@ -154,7 +161,7 @@ Situation VerdictController::situation() const {
   situation.workspace = workspaces_.current();
   situation.files = files_.situation();
   situation.has_case = parts_.state.currentCase() != nullptr;
-  situation.has_next = !nextCase().isEmpty();
+  situation.has_next = has_next_;
   if (const auto* shown = shownCase(parts_.document, parts_.state))
     situation.has_seed = shown->has_seed;
   situation.load_problem = parts_.cases.loadProblem();
@@ -186,6 +193,7 @@ Situation VerdictController::situation() const {
 
 void VerdictController::update() {
   told_ = parts_.state.opening();
+  has_next_ = !nextCase().isEmpty();
   const Situation now = situation();
   docks_.remedies.setTried(now.tried);
   bar_.setVerdict(verdictOf(now));
@@ -317,16 +325,21 @@ void VerdictController::askForUncertainty() {
     Q_EMIT failed(leftText(seen));
 }
 
+/// By the list of cases, which is kept for each edit: of tens of thousands only some are asked for
+/// their decision.
 QString VerdictController::nextCase() const {
   if (docks_.queue.isInSight()) return docks_.queue.nextOpen();
-  const sessions::Session& session = parts_.document.session();
-  const std::string shown = parts_.cases.caseId().toStdString();
-  const auto count = session.cases.size();
-  std::size_t at = 0;
-  while (at < count && session.cases[at]->id != shown) ++at;
-  for (std::size_t i = 1; i < count; ++i) {
-    const std::string& id = session.cases[(at + i) % count]->id;
-    if (!sessions::reviewStatusOf(session, id).holds()) return fromText(id);
+  const std::vector<CaseRow>& rows = docks_.cases.model().rows();
+  const std::size_t count = rows.size();
+  const int shown = docks_.cases.model().rowOf(parts_.cases.caseId());
+  const std::size_t at = shown < 0 ? count : static_cast<std::size_t>(shown);
+  int asked = 0;
+  for (std::size_t i = 1; i < count && asked < kMostAsked; ++i) {
+    const CaseRow& row = rows[(at + i) % count];
+    if (row.state == CaseState::kValidated || row.state == CaseState::kRejected) continue;
+    ++asked;  // it may await its second person, or not be known yet
+    if (!sessions::reviewStatusOf(parts_.document.session(), row.id.toStdString()).holds())
+      return row.id;
   }
   return {};
 }

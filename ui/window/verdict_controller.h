@@ -65,7 +65,8 @@ class VerdictController : public QObject {
   QWidget& window_;
   QTimer soon_;
   RemedyMemory taken_;
-  CaseOpening told_;  ///< the case of the bar
+  CaseOpening told_;      ///< the case of the bar
+  bool has_next_ = true;  ///< another case is to be decided
 };
 
 }  // namespace boresight::ui

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
@@ -66,7 +68,13 @@ struct KeyOfEntry {
     return entry.key;
   }
 };
-using List = sessions::KeyedList<Entry, KeyOfEntry>;
+/// Every third number is in no group; the others are in that of their key.
+struct GroupOfEntry {
+  const std::string* operator()(const Entry& entry) const {
+    return entry.number % 3 == 0 ? nullptr : &entry.key;
+  }
+};
+using List = sessions::KeyedList<Entry, KeyOfEntry, GroupOfEntry>;
 
 TEST(SameScene, FramesAndStatesOfPartsMakeAnother) {
   Random random = randomFor("SameScene");
@@ -175,6 +183,13 @@ TEST(KeyedList, EqualsAPlainListAfterRandomChanges) {
         ASSERT_EQ(*found, *expected);
       }
       ASSERT_EQ(std::ssize(list.findAll(text)), plain.count(text));
+      std::vector<Entry> group, expected_group;
+      for (const Entry* entry : list.findGroup(text)) group.push_back(*entry);
+      std::ranges::copy_if(plain.entries, std::back_inserter(expected_group),
+                           [&](const Entry& entry) {
+                             return entry.key == text && GroupOfEntry()(entry) != nullptr;
+                           });
+      ASSERT_EQ(group, expected_group);
     }
     copies.emplace_back(list, plain);
   }

@@ -2,15 +2,17 @@
 // Longest time that the window is blocked: event_gaps DATASET CASE opens a case, runs it to the
 // end, walks through its iterations, zooms with all layers shown, runs a batch, runs it again and
 // stops it at once. It prints the longest times that the event loop was kept by one event, and how
-// soon a stop was answered. event_gaps DATASET --cases N edits a session of N cases, with the queue
-// and the history shown. Built by: cmake --build build/release --target event_gaps
+// soon a stop was answered. event_gaps DATASET --cases N edits a session of N cases, two to a rig,
+// with the queue and the history shown. Built by: cmake --build build/release --target event_gaps
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <QtWidgets>
@@ -264,6 +266,15 @@ class Walk {
   ui::MainWindow& window_;
 };
 
+sessions::Session inRigsOfTwo(sessions::Session session) {
+  for (std::size_t i = 0; i < session.cases.size(); ++i) {
+    sessions::SessionCase session_case = *std::as_const(session).cases[i];
+    session_case.rig = sessions::Rig{"rig-" + std::to_string(i / 2), Pose()};
+    session.cases.replace(i, session_case);
+  }
+  return session;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -286,7 +297,7 @@ int main(int argc, char** argv) {
   Walk walk(clock, window);
   if (many) {
     walk.open(folder / "many.boresight.json",
-              test::manyCases(sessions::makeSession(argv[1]), std::atoll(argv[3])));
+              inRigsOfTwo(test::manyCases(sessions::makeSession(argv[1]), std::atoll(argv[3]))));
     walk.edit();
     return 0;
   }

@@ -9,6 +9,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/session/session_difference.h"
 #include "sessions/session/session_file.h"
 #include "ui/models/text.h"
 #include "ui/plots/plots.h"
@@ -78,8 +79,8 @@ TrendsPanel::TrendsPanel(Document& document) : document_(document) {
           [this](const QModelIndex& current) {
             if (plot_) plot_->setMarked(current.row());
           });
-  connect(&document_, &Document::opened, this, [this] { setEarlier({}); });
-  connect(&document_, &Document::changed, this, &TrendsPanel::follow);
+  connect(&document_, &Document::left, this, [this] { earlier_.clear(); });
+  connectEach(document_, this, &TrendsPanel::follow, &Document::opened, &Document::changed);
   take({});
 }
 
@@ -88,18 +89,27 @@ void TrendsPanel::setEarlier(std::vector<std::filesystem::path> files) {
   follow();
 }
 
+/// Whether the trend is of the last runs that the session has now. Walks what was changed.
+bool TrendsPanel::isRead() const {
+  const sessions::Session& current = document_.session();
+  return std::ranges::none_of(
+      sessions::differenceOf(read_session_, current).cases, [&](const std::string& id) {
+        const sessions::RunRecord* before = read_session_.lastRunOf(id);
+        const sessions::RunRecord* now = current.lastRunOf(id);
+        return before && now ? before->digest != now->digest : before != now;
+      });
+}
+
 /// Runs are read while they are looked at, once.
 void TrendsPanel::follow() {
   if (!isVisible()) return;
-  Source wanted{{}, earlier_};
-  const sessions::Session& current = document_.session();
-  for (const auto& each : current.cases)
-    if (const sessions::RunRecord* run = current.lastRunOf(each->id))
-      wanted.first.push_back(each->id + ' ' + run->digest);
-  if (!wanted.first.empty()) wanted.second.push_back(document_.file());
-  if (wanted == read_) return;
-  read_ = std::move(wanted);
-  ui_.trendNote->setText(tr("Reading %n run(s) ...", "", static_cast<int>(read_.first.size())));
+  std::vector<std::filesystem::path> files = earlier_;
+  files.push_back(document_.file());
+  const bool is_read = isRead() && files == read_files_;
+  read_session_ = document_.session();
+  if (is_read) return;
+  read_files_ = std::move(files);
+  ui_.trendNote->setText(tr("Reading the runs ..."));
   reader_.replace(
       reading_,
       [session = document_.session(), file = document_.file(),

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <QWidget>
@@ -11,6 +9,7 @@
 #include "ui_trends_panel.h"
 
 #include "sessions/report/trends.h"
+#include "sessions/session/session.h"
 #include "ui/models/rows_model.h"
 #include "ui/run/task_runner.h"
 
@@ -52,14 +51,13 @@ class TrendsPanel : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  /// The shown case ids with digests of their last runs, and the sessions, the shown one last.
-  using Source = std::pair<std::vector<std::string>, std::vector<std::filesystem::path>>;
   struct Trend {
     std::vector<sessions::TrendPoint> points;
     QStringList remarks;
   };
 
   void follow();
+  bool isRead() const;
   void take(const Trend& trend);
   void showFigure();
   void askForEarlier();
@@ -67,7 +65,8 @@ class TrendsPanel : public QWidget {
   Document& document_;
   TrendsModel model_;
   std::vector<std::filesystem::path> earlier_;
-  Source read_;
+  sessions::Session read_session_;                 ///< of which the trend is
+  std::vector<std::filesystem::path> read_files_;  ///< of the earlier ones and of this one
   TaskRunner reader_;
   TaskKind reading_;
   DoublePlot* plot_ = nullptr;
