@@ -203,9 +203,12 @@ class Walk {
       const double before_ms = cpuTime_ms();
       window_.document().edit(session, QString::fromLatin1(what));
       const double edited_ms = cpuTime_ms();
+      clock_.begin();
       settle();
-      std::printf("%s: CPU %.1f ms, and %.1f ms in the next second\n", what, edited_ms - before_ms,
-                  cpuTime_ms() - edited_ms);
+      std::printf("%s: CPU %.1f ms, and %.1f ms in the next second, of which at most:\n", what,
+                  edited_ms - before_ms, cpuTime_ms() - edited_ms);
+      for (const EventGap& gap : clock_.longest(2))
+        std::printf("    CPU %6.1f ms  %s\n", gap.cpu_ms, qPrintable(gap.where));
     };
     const auto move = [](sessions::Session& session, std::size_t i) {
       const std::string id = std::as_const(session).cases[i]->id;
