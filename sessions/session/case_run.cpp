@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/created_folder.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_fields.h"
 #include "sessions/log/program_log.h"
@@ -163,9 +164,7 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
   } catch (const InputError&) {
     // not there, or damaged: it is written now
   }
-  std::error_code error;
-  fs::create_directories(run.file.parent_path(), error);
-  if (error) throw OutputError(run.file.parent_path(), error.message());
+  const CreatedFolder folder(run.file.parent_path());
   saveTrace(run.file, trace);
   return run;
 }
