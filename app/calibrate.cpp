@@ -12,7 +12,6 @@
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
-#include "sessions/session/session_file.h"
 #include "sessions/session/stated_inputs.h"
 #include "sessions/text/text_table.h"
 
@@ -145,7 +144,8 @@ int calibrate(const CalibrateArguments& arguments) {
   requireWritable({arguments.out});
   std::vector<CalibratedSession> calibrated;
   for (const std::string& file : arguments.sessions) {
-    const sessions::Session session = sessions::readSessionFile(file).session;
+    const sessions::SessionDocument document = openToRead(file);
+    const sessions::Session& session = document.session();
     sessions::CameraCalibration calibration = calibrateSession(file, arguments, session);
     const sessions::SessionCase& first = *session.cases.front();
     calibrated.push_back({file, first.camera, std::move(calibration), first});

@@ -9,7 +9,6 @@
 #include "sessions/baselines/method_options.h"
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
-#include "sessions/io/files/file_lock.h"
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/run/runner.h"
 #include "sessions/text/plain_text.h"
@@ -292,24 +291,12 @@ void sayNotices(const sessions::SessionDocument& document) {
   for (const std::string& text : document.notices()) note(text);
 }
 
-[[noreturn]] void failForEdits(const sessions::SessionDocument& document) {
-  const std::size_t edits = document.recovery()->edits.size();
-  const auto holder = sessions::readLockFile(sessions::lockFileOf(document.file()));
-  const bool open = document.readOnly() && holder && !sessions::hasEnded(*holder);
-  throw sessions::InputError(
-      document.file(),
-      sessions::countText(edits, "edit") + (edits == 1 ? " was" : " were") +
-          (open ? " not saved yet: save the session in the program that has it open"
-                : " never saved: recover with `whs decide --recover` or `whs run --recover`, or in "
-                  "the desktop program"));
-}
-
 }  // namespace
 
 sessions::SessionDocument openToRead(const std::string& file) {
   auto document = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
   sayNotices(document);
-  if (document.recovery()) failForEdits(document);
+  document.requireNothingUnsaved();
   return document;
 }
 
@@ -318,11 +305,11 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover,
   auto document = sessions::SessionDocument::open(file, access);
   if (document.readOnly()) throw sessions::OutputError(document.file(), document.readOnlyReason());
   sayNotices(document);
+  if (!recover) document.requireNothingUnsaved();
   if (!document.recovery()) return document;
-  if (!recover) failForEdits(document);
   const std::vector<std::string> edits = document.recovery()->edits;
-  document.acceptRecovery();
-  for (const std::string& edit : edits) note("edit taken from the journal: " + edit);
+  document.saveRecovery();
+  for (const std::string& edit : edits) note("edit taken from the journal and saved: " + edit);
   return document;
 }
 

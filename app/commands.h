@@ -159,8 +159,8 @@ struct DatasetArguments {
 sessions::SessionDocument openToRead(const std::string& file);
 
 /// Opens a session to be changed. InputError as above unless `recover` accepts these edits, which
-/// are then printed to stderr; OutputError when another program has the session open or it cannot
-/// be written.
+/// are then saved and printed to stderr; OutputError when another program has the session open or
+/// it cannot be written.
 sessions::SessionDocument openToEdit(const std::string& file, bool recover,
                                      sessions::Access access = sessions::Access::kEdit);
 

@@ -14,7 +14,6 @@
 #include "sessions/io/files/atomic_file.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_file.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::app {
@@ -65,7 +64,8 @@ std::optional<sessions::ArmPosture> postureOf(const sessions::SessionCase& sessi
 
 void addObservations(const std::string& file, const sessions::FrameName& arm,
                      ArmObservations& observations) {
-  const sessions::Session session = sessions::readSessionFile(file).session;
+  const sessions::SessionDocument document = openToRead(file);
+  const sessions::Session& session = document.session();
   for (const auto& session_case : session.cases) {
     if (session.lastRunOf(session_case->id) == nullptr) continue;
     const sessions::LocalizationTrace run =

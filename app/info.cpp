@@ -179,11 +179,8 @@ void describeSession(const path& file) {
   if (const auto holder = sessions::readLockFile(sessions::lockFileOf(document.file())))
     line((sessions::hasEnded(*holder) ? "was left open by " : "is open in ") + holder->text());
   for (const std::string& text : document.notices()) flag(text);
-  if (document.recovery()) {
-    const std::size_t edits = document.recovery()->edits.size();
-    flag(countText(edits, "unsaved edit") + (edits == 1 ? " is" : " are") +
-         " in its journal, the last of " + document.recovery()->time);
-  }
+  if (document.recovery())
+    flag(document.unsavedText() + "; the last is of " + document.recovery()->time);
   std::shared_ptr<const sessions::LoadedCase> previous;
   const std::size_t described = std::min(session.cases.size(), kDescribedCases);
   for (std::size_t i = 0; i < described; ++i)

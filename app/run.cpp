@@ -157,7 +157,6 @@ int runAll(sessions::SessionDocument& document, const RunArguments& arguments) {
 
 int runSession(const RunArguments& arguments) {
   sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
-  if (!arguments.again.empty() && document.modified()) document.save();  // what was recovered
   return arguments.again.empty() ? runAll(document, arguments)
                                  : runAgain(document, arguments.again);
 }

@@ -8,6 +8,7 @@
 #include "app/batch_output.h"
 #include "app/commands.h"
 #include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/created_folder.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/tables/error_strips.h"
 #include "sessions/tables/flight_table.h"
@@ -163,7 +164,6 @@ std::string tablesText(const TablesArguments& arguments, const sessions::Results
 
 void writeFigures(const std::filesystem::path& folder, CanvasFormat format,
                   const std::vector<sessions::Figure>& figures) {
-  std::filesystem::create_directories(folder);
   for (const sessions::Figure& figure : figures)
     sessions::writeFileAtomically(folder / (figure.name + sessions::extensionOf(format)),
                                   figure.bytes);
@@ -204,19 +204,11 @@ int compareSets(const TablesArguments& arguments, const sessions::ResultsSet& be
   return difference.holds() ? kDone : kDifferent;
 }
 
-/// OutputError unless the folder exists or can be created; an empty name is no folder.
-void requireFolder(const std::string& folder) {
-  std::error_code error;
-  if (folder.empty() || std::filesystem::is_directory(folder, error)) return;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw sessions::OutputError(folder, "it is no folder and cannot become one");
-}
-
 int makeTables(const TablesArguments& arguments) {
   const sessions::ResultsSet set =
       sessions::readResultsSet(paths(arguments.results), arguments.filter);
   requireWritable({arguments.out});
-  for (const std::string& folder : {arguments.figures, arguments.failures}) requireFolder(folder);
+  const sessions::CreatedFolder figures(arguments.figures), failures(arguments.failures);
   if (!arguments.against.empty()) return compareSets(arguments, set);
   if (set.runs.empty()) {
     note("no run meets all filters");

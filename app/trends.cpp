@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 
 #include "app/commands.h"
 #include "sessions/io/files/atomic_file.h"
@@ -21,10 +23,12 @@ struct TrendArguments {
 
 int trends(const TrendArguments& arguments) {
   requireWritable({arguments.csv, arguments.pdf});
-  const std::vector<std::filesystem::path> files(arguments.sessions.begin(),
-                                                 arguments.sessions.end());
   std::vector<std::string> remarks;
-  const std::vector<sessions::TrendPoint> points = sessions::trendOf(files, remarks);
+  std::vector<sessions::TrendPoint> points;
+  for (const std::string& file : arguments.sessions)
+    std::ranges::move(sessions::trendOf(openToRead(file).session(), file, remarks),
+                      std::back_inserter(points));
+  sessions::flagOutliers(points);
   for (const std::string& remark : remarks) note(remark);
   std::cout << sessions::trendTable(points) << std::flush;
   if (!arguments.csv.empty())

@@ -76,7 +76,11 @@ py::dict renderEdges(const Case& one, const std::optional<Eigen::Matrix4d>& pose
 }
 
 /// A session file that is read, and written again by write().
-sessions::Session readSession(const Path& file) { return sessions::readSessionFile(file).session; }
+sessions::Session readSession(const Path& file) {
+  const auto document = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
+  document.requireNothingUnsaved();
+  return document.session();
+}
 
 Case caseOf(const sessions::Session& session, const std::string& id) {
   const sessions::SessionCase* found = session.findCase(id);

@@ -73,8 +73,9 @@ Check fallOffCheck(double seen, const std::vector<FallOff>& fall_off, const Chec
   const double fall = 1.0 - least->coverage / seen;
   return measuredCheck(kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
                        "Displaced by " + sentenceNumber(kDisplaced_px) +
-                           " px in the image, the pose loses at least " + percentText(fall) +
-                           " of the edges seen, least when " + least->direction + ".",
+                           " px in the image, the pose loses at least " +
+                           sentenceNumber(100.0 * fall) + " % of the edges seen, least when " +
+                           least->direction + ".",
                        "The image hardly constrains the pose in this direction: use annotations or "
                        "a second camera.");
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include "core/base/math.h"
@@ -11,7 +10,6 @@
 #include "sessions/checks/pose_uncertainty.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_file.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -143,16 +141,6 @@ void drawStation(PdfCanvas& canvas, std::span<const TrendPoint> points, const st
 
 bool TrendPoint::flagged() const {
   return std::find(outlier.begin(), outlier.end(), true) != outlier.end();
-}
-
-std::vector<TrendPoint> trendOf(std::span<const std::filesystem::path> sessions,
-                                std::vector<std::string>& remarks) {
-  std::vector<TrendPoint> points;
-  for (const std::filesystem::path& file : sessions)
-    std::ranges::move(trendOf(readSessionFile(file).session, file, remarks),
-                      std::back_inserter(points));
-  flagOutliers(points);
-  return points;
 }
 
 std::vector<TrendPoint> trendOf(const Session& session, const std::filesystem::path& file,

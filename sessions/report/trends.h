@@ -38,11 +38,9 @@ struct TrendPoint {
   bool flagged() const;
 };
 
-/// Points of every case with a converged run of its current inputs, in the order of the sessions.
-/// Other cases are named in `remarks`. InputError.
-std::vector<TrendPoint> trendOf(std::span<const std::filesystem::path> sessions,
-                                std::vector<std::string>& remarks);
-/// The same of one session, without flags of outliers. After a stop, returns the points so far.
+/// Points of every case of a session with a converged run of its current inputs, without flags of
+/// outliers. Other cases are named in `remarks`. After a stop, returns the points so far.
+/// InputError.
 std::vector<TrendPoint> trendOf(const Session& session, const std::filesystem::path& file,
                                 std::vector<std::string>& remarks,
                                 const std::stop_token& stop = {});

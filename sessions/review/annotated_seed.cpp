@@ -16,9 +16,7 @@ constexpr double kLeastSeed_deg = 0.2;
 
 SessionCase withMeasuredSeed(SessionCase session_case, const MeshView& mesh,
                              const Pose& camera_from_station, const Matrix6d& picture_covariance) {
-  session_case.has_seed = true;
-  session_case.camera_from_station_seed = camera_from_station;
-  session_case.camera_from_station_working.reset();
+  setSeed(session_case, camera_from_station);
   const Pose at_centre{Eigen::Quaterniond::Identity(),
                        camera_from_station * matchedBounds(mesh).centre()};
   const auto sigma =

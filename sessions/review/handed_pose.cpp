@@ -63,11 +63,12 @@ LocalizationTrace runAgain(const RunRecord& run, const Session& session,
   LocalizationTrace again = repeatRun(run, session, session_file);
   const std::string place = "run " + run.digest;
   if (again.digest != run.digest)
-    throw InputError(session_file, place,
-                     "has another digest when repeated: " + again.digest +
-                         (run.version == kVersion
-                              ? ""
-                              : "; it is from version " + run.version + ", this is " + kVersion));
+    throw InputError(
+        session_file, place,
+        "has another digest when repeated: " + again.digest +
+            (run.version == kVersion ? ""
+                                     : "; it is from version " + run.version + ", this is " +
+                                           kVersion + ": run and decide again"));
   if (localizationStatusText(again.status) != run.status)
     throw InputError(session_file, place,
                      std::string("ended as ") + localizationStatusText(again.status) +

@@ -12,6 +12,7 @@
 #include "sessions/io/images/labels/image_label.h"
 #include "sessions/io/meshes/mesh_file.h"
 #include "sessions/run/problem.h"
+#include "sessions/session/case_frames.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
@@ -129,6 +130,7 @@ void takeInput(SessionCase& to, const SessionCase& from, InputKind kind) {
   switch (kind) {
     case InputKind::kImage:
       to.image = from.image;
+      to.frames = from.frames;
       return;
     case InputKind::kCamera:
       to.camera = from.camera;
@@ -152,12 +154,21 @@ void takeInput(SessionCase& to, const SessionCase& from, InputKind kind) {
 
 /// Whether two cases have the same input of this kind, and read a file of it alike.
 bool sameInput(const SessionCase& a, const SessionCase& b, InputKind kind) {
-  if (kind == InputKind::kSeed &&
-      !(a.camera_reference == b.camera_reference && a.frames == b.frames))
+  const bool uses_frames = kind == InputKind::kSeed || kind == InputKind::kImage;
+  if (uses_frames && !(a.camera_reference == b.camera_reference && a.frames == b.frames))
     return false;
   SessionCase with_input = a;
   takeInput(with_input, b, kind);
   return with_input == a;
+}
+
+/// The frames of the image's label in place of those of the former image's.
+void takeLabelFrames(const fs::path& former_image, SessionCase& session_case) {
+  std::erase_if(session_case.frames, [&former_image](const FrameTransform& transform) {
+    return transform.origin == TransformSource::kLabel && transform.file == former_image;
+  });
+  addLabelFrames(session_case.image.source.file, session_case.camera_reference,
+                 session_case.frames);
 }
 
 }  // namespace
@@ -186,10 +197,14 @@ JudgedFiles judgeFiles(const CaseFiles& files) {
 
 SessionCase withInputFile(SessionCase session_case, InputKind kind, const fs::path& file,
                           const std::string& mesh_unit) {
+  const SessionCase former = session_case;
   if (kind == InputKind::kImage) {
-    session_case.image = imageInput(file, session_case.image.eight_bit);
+    session_case.image = imageInput(file, former.image.eight_bit);
+    takeLabelFrames(former.image.source.file, session_case);
+    followFrames(former, session_case);
   } else if (kind == InputKind::kCamera) {
     setCamera(session_case, readChosenCamera(file, {}));
+    followFrames(former, session_case);
   } else if (kind == InputKind::kMesh) {
     PartSource part = session_case.parts.front().source;
     part.mesh = file;
@@ -210,10 +225,15 @@ std::optional<Session> withInput(const Session& session, InputKind kind, const S
                                  const SessionCase& changed) {
   const SessionCase* found = session.findCase(before.id);
   if (found == nullptr || !sameInput(*found, before, kind)) return std::nullopt;
-  return withChanged(session, before.id, [&](SessionCase& session_case) {
-    takeInput(session_case, changed, kind);
-    if (kind == InputKind::kSeed) session_case.camera_from_station_working.reset();
-  });
+  SessionCase next = *found;
+  takeInput(next, changed, kind);
+  if (kind == InputKind::kSeed) next.camera_from_station_working.reset();
+  try {
+    if (kind == InputKind::kImage || kind == InputKind::kCamera) followFrames(*found, next);
+  } catch (const InputError&) {
+    return std::nullopt;  // its frames have changed
+  }
+  return withCase(session, std::move(next));
 }
 
 }  // namespace boresight::sessions

@@ -46,7 +46,9 @@ using JudgedFiles = std::array<JudgedFile, kInputKinds>;
 JudgedFiles judgeFiles(const CaseFiles& files);
 
 /// The case with one input replaced by another file, which is read. A mesh replaces the first part
-/// and has this unit. A camera includes its calibration, a seed its uncertainty. InputError.
+/// and has this unit. A camera includes its calibration, a seed its uncertainty, an image the
+/// frames of its label; poses that come from frames follow those of camera and image
+/// (followFrames). InputError.
 SessionCase withInputFile(SessionCase session_case, InputKind kind,
                           const std::filesystem::path& file, const std::string& mesh_unit = "");
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/created_folder.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_fields.h"
 #include "sessions/log/program_log.h"
@@ -19,6 +20,7 @@
 
 #include "sessions/text/utc_time.h"
 #include "sessions/trace/run_text.h"
+#include "sessions/version.h"
 
 namespace boresight::sessions {
 namespace {
@@ -117,6 +119,17 @@ LocalizationTrace runCase(const Session& session, const std::string& case_id, Re
   return runCase(session, *loadCase(knownCase(session, case_id)), level, stop);
 }
 
+namespace {
+
+/// Options are stored as differences from a profile, which a version may change.
+std::string otherOptionsText(const RunRecord& run) {
+  if (run.version == kVersion) return "the session's options have changed since the run";
+  return "it had other options than the session has now: it is from version " + run.version +
+         ", whose profiles may differ from those of " + kVersion + "; run and decide again";
+}
+
+}  // namespace
+
 RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& file) {
   const SessionCase& session_case = knownCase(session, run.case_id);
   const std::string place = "run " + run.digest;
@@ -130,7 +143,7 @@ RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& fil
   if (run.rerun) return *run.rerun;
   const LocalizerOptions options = caseOptions(session, session_case, file);
   if (run.options_sha256 != optionsDigest(options))
-    throw InputError(file, place, "the session's options have changed since the run");
+    throw InputError(file, place, otherOptionsText(run));
   return options;
 }
 
@@ -163,9 +176,7 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
   } catch (const InputError&) {
     // not there, or damaged: it is written now
   }
-  std::error_code error;
-  fs::create_directories(run.file.parent_path(), error);
-  if (error) throw OutputError(run.file.parent_path(), error.message());
+  const CreatedFolder folder(run.file.parent_path());
   saveTrace(run.file, trace);
   return run;
 }

@@ -15,6 +15,7 @@
 #include "sessions/io/images/labels/label_files.h"
 #include "sessions/io/meshes/mesh_container.h"
 #include "sessions/session/case_dependencies.h"
+#include "sessions/session/case_frames.h"
 
 namespace boresight::sessions {
 namespace {
@@ -193,20 +194,10 @@ std::vector<FrameTransform> transformsOf(const FrameTransform& known, const fs::
   return transforms;
 }
 
-std::optional<Pose> endEffectorOfFrames(const SessionCase& session_case) {
-  const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame);
-  return chain ? std::optional(chain->a_from_b) : std::nullopt;
-}
-
-/// Takes the numbers of changed files. An end effector that the case states apart from its frames
-/// stays as it is.
-void acceptFrames(SessionCase& session_case) {
-  constexpr double kSamePose = 1e-9;  ///< rad, m
-  auto& end_effector = session_case.camera_from_end_effector;
-  const auto former = endEffectorOfFrames(session_case);
-  const bool of_frames =
-      former && end_effector && perturbationBetween(*former, *end_effector).norm() <= kSamePose;
-  for (FrameTransform& known : session_case.frames) {
+/// The transforms of a case with the numbers of changed files.
+std::vector<FrameTransform> acceptedFrames(const SessionCase& session_case) {
+  std::vector<FrameTransform> frames = session_case.frames;
+  for (FrameTransform& known : frames) {
     if (!known.file.is_absolute() || inputSha256(known.file) == known.file_sha256) continue;
     const auto transforms = transformsOf(known, session_case.image.source.file);
     const auto found = std::ranges::find_if(transforms, [&known](const FrameTransform& transform) {
@@ -217,7 +208,7 @@ void acceptFrames(SessionCase& session_case) {
                                        frameText(known.source) + ": state the frames again");
     known = *found;
   }
-  if (of_frames) end_effector = endEffectorOfFrames(session_case);
+  return frames;
 }
 
 /// Requires the files of the transforms as they were read.
@@ -295,7 +286,7 @@ Session relinked(const Session& session, const std::vector<Relink>& relinks) {
 }
 
 Session acceptingInputs(const Session& session, const std::string& case_id) {
-  return withChanged(session, case_id, [](SessionCase& session_case) {
+  const Session accepted = withChanged(session, case_id, [](SessionCase& session_case) {
     const GrayImage image = readImage(session_case.image.source.file, session_case.image.eight_bit);
     session_case.image.source.sha256 = image.file_sha256;
     session_case.image.pixels_sha256 = image.pixels_sha256;
@@ -306,13 +297,14 @@ Session acceptingInputs(const Session& session, const std::string& case_id) {
     for (MeshInput& part : session_case.parts) part.sha256 = inputSha256(part.source.mesh);
     for (auto* input : {&session_case.ignore, &session_case.onboard_record})
       if (*input) (*input)->sha256 = inputSha256((*input)->file);
-    acceptFrames(session_case);
   });
+  const SessionCase* found = accepted.findCase(case_id);
+  return found == nullptr ? accepted : withFrames(accepted, case_id, acceptedFrames(*found));
 }
 
 Session withAccepted(const Session& session, const SessionCase& before,
                      const SessionCase& accepted) {
-  return withChanged(session, before.id, [&](SessionCase& now) {
+  const Session next = withChanged(session, before.id, [&](SessionCase& now) {
     if (now.image == before.image) now.image = accepted.image;
     for (std::size_t i = 0; i < std::min(now.parts.size(), before.parts.size()); ++i)
       if (now.parts[i].source.mesh == before.parts[i].source.mesh &&
@@ -320,12 +312,11 @@ Session withAccepted(const Session& session, const SessionCase& before,
         now.parts[i].sha256 = accepted.parts[i].sha256;
     if (now.ignore == before.ignore) now.ignore = accepted.ignore;
     if (now.onboard_record == before.onboard_record) now.onboard_record = accepted.onboard_record;
-    if (now.frames == before.frames) {
-      now.frames = accepted.frames;
-      if (now.camera_from_end_effector == before.camera_from_end_effector)
-        now.camera_from_end_effector = accepted.camera_from_end_effector;
-    }
   });
+  const SessionCase* now = next.findCase(before.id);
+  const bool same_frames = now != nullptr && now->frames == before.frames &&
+                           now->camera_reference == before.camera_reference;
+  return same_frames ? withFrames(next, before.id, accepted.frames) : next;
 }
 
 GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit) {

@@ -48,8 +48,8 @@ std::vector<Relink> findMissing(const Session& session, const std::filesystem::p
 Session relinked(const Session& session, const std::vector<Relink>& relinks);
 
 /// The same session with the current hashes of the case's files, and the numbers of changed
-/// transforms: the operator accepts them. Runs of the case become stale. InputError when a file
-/// cannot be read, or no longer has a transform.
+/// transforms (withFrames): the operator accepts them. Runs of the case become stale. InputError
+/// when a file cannot be read, or no longer has a transform.
 Session acceptingInputs(const Session& session, const std::string& case_id);
 
 /// The session with the hashes and transforms of `accepted`, which acceptingInputs() returned for

@@ -82,6 +82,13 @@ void setCamera(SessionCase& session_case, const CameraFile& camera) {
   session_case.camera_covariance = camera.covariance;
 }
 
+void setSeed(SessionCase& session_case, const Pose& camera_from_station) {
+  session_case.has_seed = true;
+  session_case.camera_from_station_seed = camera_from_station;
+  session_case.station_frame.reset();
+  session_case.camera_from_station_working.reset();
+}
+
 void setTruth(SessionCase& session_case, const Pose& camera_from_station, const TruthSource& source,
               const std::optional<Matrix6d>& covariance) {
   session_case.camera_from_station_truth = camera_from_station;

@@ -133,6 +133,9 @@ bool sameMeshes(const SessionCase& a, const SessionCase& b);
 /// Sets the camera of a case with its reference frame and its uncertainty.
 void setCamera(SessionCase& session_case, const CameraFile& camera);
 
+/// Sets the seed of a case, which is in no named frame, and drops a nudged pose.
+void setSeed(SessionCase& session_case, const Pose& camera_from_station);
+
 /// Sets the truth of a case and drops all data about a former truth.
 void setTruth(SessionCase& session_case, const Pose& camera_from_station, const TruthSource& source,
               const std::optional<Matrix6d>& covariance = std::nullopt);

@@ -35,9 +35,11 @@ void addListChange(const char* key, const List& before, const List& after, const
 
 template <class Map>
 void addMapChange(const char* key, const Map& before, const Map& after, ordered_json& change) {
-  ordered_json json;
-  Map::forEachDifference(before, after, [&json](const auto* from, const auto* to) {
-    json[to ? (*to)->first : (*from)->first] = to ? toJson(*(*to)->second) : ordered_json();
+  ordered_json json = ordered_json::object();
+  auto& members = json.get_ref<ordered_json::object_t&>();  // by name, all would be compared
+  Map::forEachDifference(before, after, [&members](const auto* from, const auto* to) {
+    members.emplace_back(to ? (*to)->first : (*from)->first,
+                         to ? toJson(*(*to)->second) : ordered_json());
   });
   if (!json.empty()) change[key] = std::move(json);
 }

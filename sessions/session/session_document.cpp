@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/created_folder.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/io/files/link_target.h"
@@ -74,8 +75,7 @@ void copyTrace(const RunRecord& run, const fs::path& from_session, const fs::pat
   const fs::path trace = traceOf(run, from_session);
   const fs::path copy = runFileOf(to_session, run.digest);
   if (fs::exists(copy, error) || !fs::exists(trace, error)) return;
-  fs::create_directories(copy.parent_path(), error);
-  if (error) throw OutputError(copy.parent_path(), error.message());
+  const CreatedFolder folder(copy.parent_path());
   fs::create_hard_link(fs::canonical(trace, error), copy, error);
   if (!error) return;
   writeFileAtomically(copy, readFileBytes(trace, SIZE_MAX, FileUse::kRun), FileUse::kRun);
@@ -240,9 +240,43 @@ void SessionDocument::requireEditable() const {
     throw OutputError(file_, "unsaved edits of an earlier program must be recovered or declined");
 }
 
+std::string SessionDocument::unsavedText() const {
+  if (!recovery_) return "";
+  const std::size_t edits = recovery_->edits.size();
+  const auto holder = readLockFile(lockFileOf(file_));
+  const bool open = readOnly() && holder && !hasEnded(*holder);
+  return countText(edits, "edit") + (edits == 1 ? " was" : " were") +
+         (open ? " not saved yet: save the session in the program that has it open"
+               : " never saved: recover with `whs decide --recover` or `whs run --recover`, or in "
+                 "the desktop program");
+}
+
+void SessionDocument::requireNothingUnsaved() const {
+  if (recovery_) throw InputError(file_, unsavedText());
+}
+
+void SessionDocument::saveRecovery() {
+  if (!recovery_) return;
+  const std::optional<Recovery> left = recovery_;
+  const bool journals = std::exchange(journals_, false);
+  try {
+    acceptRecovery();
+    save();
+  } catch (...) {
+    recovery_ = left;
+    session_ = saved_;
+    journals_ = journals;
+    throw;
+  }
+  journals_ = journals;
+}
+
 void SessionDocument::acceptRecovery() {
   if (!recovery_) return;
-  if (readOnly()) throw OutputError(file_, read_only_reason_);
+  if (readOnly()) {
+    session_ = std::move(recovery_->session);
+    return recovery_.reset();
+  }
   if (!recovery_->damage.empty()) keepDamagedJournal();
   addToJournal(recovery_->session, "Recover " + countText(recovery_->edits.size(), "edit") + ": " +
                                        joined(recovery_->edits));
@@ -322,6 +356,10 @@ void SessionDocument::save() {
 }
 
 void SessionDocument::discardChanges() {
+  if (readOnly() && modified()) {
+    session_ = saved_;
+    return;
+  }
   requireEditable();
   std::error_code error;
   fs::remove(journalFileOf(file_), error);
@@ -355,6 +393,7 @@ void SessionDocument::saveAs(const fs::path& file, std::span<const RunRecord> re
     copyTrace(run, file_, other.file_);
     run.file = traceOf(run, other.file_);
   }
+  syncFolder(runsFolderOf(other.file_));  // the names of links
   const std::string text = sessionFileText(session, other.file_);
   other.begin(std::move(session), text, "the session was replaced by another one");
   if (journal_) fs::remove(journalFileOf(file_), error);  // its edits are in the new file

@@ -52,8 +52,16 @@ class SessionDocument {
   /// Unsaved edits of a program that was killed; they must be accepted or declined before anything
   /// can be edited or saved.
   const std::optional<Recovery>& recovery() const { return recovery_; }
-  /// Takes the recovered session, not yet saved. OutputError.
+  /// One sentence about these edits: how many there are and how to get them; "" when there are
+  /// none.
+  std::string unsavedText() const;
+  /// InputError with unsavedText(): the file alone is not the session as it was edited.
+  void requireNothingUnsaved() const;
+  /// Takes the recovered session, not yet saved; of a read-only document for saveAs(), and its
+  /// journal stays. OutputError.
   void acceptRecovery();
+  /// Takes and saves the recovered session. OutputError; then file and journal are as before.
+  void saveRecovery();
   /// Sets the journal aside under another name. OutputError.
   void declineRecovery();
 
@@ -68,8 +76,8 @@ class SessionDocument {
   /// Writes the file and drops the journal. OutputError; FileChangedError when another program has
   /// changed the file meanwhile. Then file and journal are unchanged.
   void save();
-  /// Resets the session to the content of the file, with nothing left to recover. OutputError when
-  /// the document is read-only.
+  /// Resets the session to the content of the file, with nothing left to recover but the journal
+  /// of a read-only document. OutputError when a read-only document has no such edits.
   void discardChanges();
   /// Discards the changes and reads the file again, as another program may have left it.
   /// OutputError as above; InputError when the file is no longer a session. Then nothing has

@@ -22,10 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-fs::path companionFile(const fs::path& session_file, const char* extension) {
+fs::path companionFile(const fs::path& session_file, const std::string& kind) {
   fs::path name = session_file;
-  if (name.extension() == ".json") name.replace_extension();
-  name += extension;
+  if (name.extension() == ".json") return name.replace_extension("." + kind);
+  name += "-" + kind;  // a session NAME.json next to it has NAME.KIND
   return name;
 }
 
@@ -62,6 +62,17 @@ void readAnnotationsOf(const JsonReader& json, Session& session) {
     requireCase(session, id, list);
     session.rounds.insert_or_assign(id, readRounds(list));
   }
+}
+
+/// An object with a member for each element of a map. As a member is added by its name, all others
+/// are compared with it.
+template <class Map>
+ordered_json objectOf(const Map& map) {
+  ordered_json json = ordered_json::object();
+  auto& members = json.get_ref<ordered_json::object_t&>();
+  members.reserve(map.size());
+  for (const auto& [name, value] : map) members.emplace_back(name, toJson(*value));
+  return json;
 }
 
 /// The first text that is not UTF-8, behind its place: ".cases[0].image.file: 'caf\xE9.png'"; ""
@@ -191,10 +202,10 @@ Session readMembers(const JsonReader& json) {
 }  // namespace
 
 fs::path journalFileOf(const fs::path& session_file) {
-  return companionFile(session_file, ".journal");
+  return companionFile(session_file, "journal");
 }
-fs::path lockFileOf(const fs::path& session_file) { return companionFile(session_file, ".lock"); }
-fs::path runsFolderOf(const fs::path& session_file) { return companionFile(session_file, ".runs"); }
+fs::path lockFileOf(const fs::path& session_file) { return companionFile(session_file, "lock"); }
+fs::path runsFolderOf(const fs::path& session_file) { return companionFile(session_file, "runs"); }
 
 fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
   return runsFolderOf(session_file) / (digest + ".trace");
@@ -257,10 +268,8 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["cases"] = ordered_json::array();
   for (const auto& session_case : session.cases)
     json["cases"].push_back(toJson(*session_case, path));
-  json["annotations"] = ordered_json::object();
-  for (const auto& [id, annotation] : session.annotations)
-    json["annotations"][id] = toJson(*annotation);
-  for (const auto& [id, rounds] : session.rounds) json["rounds"][id] = toJson(*rounds);
+  json["annotations"] = objectOf(session.annotations);
+  if (!session.rounds.empty()) json["rounds"] = objectOf(session.rounds);
   if (session.robust_annotations) json["robust_annotations"] = true;
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
   json["decisions"] = ordered_json::array();

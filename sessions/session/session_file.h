@@ -14,9 +14,9 @@
 
 namespace boresight::sessions {
 
-/// Files next to `name.json`: `name.journal`, `name.lock`, `name.runs/`. Another extension than
-/// .json is kept as part of the name. A file has the same ones by all its names only where these
-/// are no symbolic links: linkTarget().
+/// Files next to `name.json`: `name.journal`, `name.lock`, `name.runs/`; next to a `name` without
+/// .json: `name-journal`, ... A file has the same ones by all its names only where these are no
+/// symbolic links: linkTarget().
 std::filesystem::path journalFileOf(const std::filesystem::path& session_file);
 std::filesystem::path lockFileOf(const std::filesystem::path& session_file);
 std::filesystem::path runsFolderOf(const std::filesystem::path& session_file);

@@ -5,12 +5,12 @@
 #include <map>
 #include <system_error>
 
-#include "core/base/math.h"
 #include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/bop_dataset.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/io/images/labels/image_label.h"
+#include "sessions/session/case_frames.h"
 #include "sessions/session/input_check.h"
 
 namespace boresight::sessions {
@@ -24,44 +24,6 @@ fs::path wholePath(const fs::path& file) { return fs::absolute(file).lexically_n
 std::vector<FrameTransform> keptFrames(std::vector<FrameTransform> transforms) {
   for (FrameTransform& transform : transforms) transform.file = wholePath(transform.file);
   return transforms;
-}
-
-/// Adds the frames of the image's label that no transform joins yet.
-void addLabelFrames(const fs::path& image, const std::optional<CameraReference>& reference,
-                    std::vector<FrameTransform>& transforms) {
-  if (!hasImageLabel(image)) return;
-  for (const LabelFrame& stated : readImageLabel(image).frames) {
-    if (stated.frame == stated.reference ||
-        frameTree(reference, transforms).chain(stated.reference, stated.frame))
-      continue;
-    FrameTransform transform;
-    transform.target = stated.reference;
-    transform.source = stated.frame;
-    transform.target_from_source = stated.reference_from_frame;
-    transform.origin = TransformSource::kLabel;
-    transform.comment = "the image's label";
-    transform.file = image;
-    transform.file_sha256 = inputSha256(image);
-    transforms.push_back(std::move(transform));
-  }
-}
-
-/// Half-widths of a seed's uncertainty that a covariance is taken as, in sigmas.
-constexpr double kSeedSigmas = 3.0;
-
-/// The seed that the transforms between CAMERA and STATION are.
-std::optional<PoseFile> seedOfFrames(const PoseFrames& frames) {
-  const auto chain =
-      frameTree(frames.reference, frames.transforms).chain(kCameraFrame, kStationFrame);
-  if (!chain) return std::nullopt;
-  PoseFile seed;
-  seed.camera_from_station = chain->a_from_b;
-  if (!chain->covariance_stated) return seed;
-  const Vector6d limits = kSeedSigmas * sigmasOf(chain->covariance);
-  DeclaredUncertainty& uncertainty = seed.uncertainty.emplace();
-  uncertainty.rotation_deg = limits.head<3>() / kDegree_rad;
-  uncertainty.translation_m = limits.tail<3>();
-  return seed;
 }
 
 /// A line for the operator where the seed was converted by what the image's label states.
@@ -198,7 +160,8 @@ MadeCase makeCase(const CaseFiles& files) {
     session_case.camera_from_end_effector = files.camera_from_end_effector;
   session_case.requirement = files.requirement;
   const std::optional<PoseFile> given =
-      files.seed.empty() ? seedOfFrames(frames) : readPose(files.seed, frames);
+      files.seed.empty() ? seedOfFrames(frameTree(frames.reference, frames.transforms))
+                         : readPose(files.seed, frames);
   session_case.has_seed = given.has_value();
   const PoseFile seed = given.value_or(PoseFile());
   session_case.camera_from_station_seed = seed.camera_from_station;

@@ -129,7 +129,7 @@ Session sessionOfResults(const std::filesystem::path& results_file) {
     if (found == by_id.end()) continue;
     SessionCase session_case = *found->second;
     session_case.id = resultCaseId(run);
-    if (run.reseed > 0) session_case.camera_from_station_seed = run.camera_from_station_seed;
+    if (run.reseed > 0) setSeed(session_case, run.camera_from_station_seed);
     session_case.tags.push_back(resultTag(listedResult(run)));
     session.cases.push_back(std::move(session_case));
   }

@@ -167,7 +167,7 @@ class Packer {
   Packer(const Session& session, const fs::path& session_file)
       : session_file_(session_file),
         name_(session_file.filename()),
-        top_(runsFolderOf(name_).stem().string()) {
+        top_((name_.extension() == ".json" ? name_.stem() : name_).string()) {
     folders_.add(fs::absolute(session_file).parent_path());
     for (const auto& session_case : session.cases) {
       forEachFile(*session_case, [this](const std::string&, const fs::path& file,

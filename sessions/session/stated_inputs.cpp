@@ -2,8 +2,10 @@
 #include "sessions/session/stated_inputs.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sessions/io/cameras/frame_tree.h"
+#include "sessions/session/case_frames.h"
 #include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
@@ -70,16 +72,20 @@ void writeChange(const std::optional<StatedCalibration>& former,
 }  // namespace
 
 Session withStated(const Session& session, const std::string& case_id, const StatedInputs& stated) {
-  SessionCase changed = knownCase(session, case_id);
-  for (const FrameTransform& transform : stated.frames) addTransform(changed.frames, transform);
-  const FrameTree tree = framesOf(changed);
-  if (!stated.frames.empty())
-    if (const auto chain = tree.chain(kCameraFrame, kEndEffectorFrame))
-      changed.camera_from_end_effector = chain->a_from_b;
+  const SessionCase& former = knownCase(session, case_id);
+  std::vector<FrameTransform> frames = former.frames;
+  for (const FrameTransform& transform : stated.frames) addTransform(frames, transform);
+  const Session next =
+      stated.frames.empty() ? session : withFrames(session, case_id, std::move(frames));
+  SessionCase changed = *next.findCase(case_id);
+  const auto chain = framesOf(changed).chain(kCameraFrame, kEndEffectorFrame);
+  const auto former_chain = framesOf(former).chain(kCameraFrame, kEndEffectorFrame);
+  if (chain && (!former_chain || !(chain->a_from_b == former_chain->a_from_b)))
+    changed.camera_from_end_effector = chain->a_from_b;
   if (stated.camera_from_end_effector)
     changed.camera_from_end_effector = stated.camera_from_end_effector;
   if (stated.requirement) changed.requirement = stated.requirement;
-  return withCase(session, std::move(changed));
+  return withCase(next, std::move(changed));
 }
 
 InputSigmas::InputSigmas(const SessionCase& session_case)

@@ -21,9 +21,9 @@ struct StatedInputs {
   bool empty() const { return !camera_from_end_effector && !requirement && frames.empty(); }
 };
 
-/// The same session with these inputs of a case. Transforms that join CAMERA and END_EFFECTOR
-/// give the end effector where it is not stated itself. InputError when there is no such case, and
-/// when a transform closes a loop.
+/// The same session with these inputs of a case. Transforms that change the chain of CAMERA and
+/// END_EFFECTOR give the end effector, unless it is stated, too. Poses that come from the frames
+/// follow the new ones (withFrames). InputError as there.
 Session withStated(const Session& session, const std::string& case_id, const StatedInputs& stated);
 
 /// One sigma of each as used: from the camera's covariance, stated, or else assumed.

@@ -8,6 +8,7 @@
 #include "sessions/io/cameras/frame_tree.h"
 #include "sessions/io/images/camera_of_file.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/session/stated_inputs.h"
@@ -134,6 +135,21 @@ TEST_F(Calibrate, RefusesWhatCannotBeCalibratedInOneSentence) {
   EXPECT_THAT(refusal({"calibrate", file_}), HasSubstr("c1 has another camera than c0"));
   runWhs({"calibrate", file_, "--free", "zoom"}, 2);
   runWhs({"calibrate", file_, "--out", folder_ / "no_folder" / "camera.json"}, 3);
+}
+
+TEST_F(Calibrate, UnsavedEdits_AreRefused) {
+  sessions::writeSessionFile(file_, sessionOf(2));
+  {
+    auto document = sessions::SessionDocument::open(file_);
+    Session edited = document.session();
+    edited.robust_annotations = !edited.robust_annotations;
+    document.apply(edited, "Edit");
+  }
+  const std::vector<std::vector<std::string>> commands = {
+      {"calibrate", file_}, {"hand-eye", file_, "--arm", "ARM_BASE"}, {"trends", file_}};
+  for (const auto& command : commands)
+    EXPECT_THAT(refusal(command), HasSubstr(file_ + ": 1 edit was never saved: recover with"))
+        << command[0];
 }
 
 TEST_F(Calibrate, HandEyeFindsTheCamerasPlaceOnTheArm) {

@@ -246,6 +246,15 @@ TEST_F(WhsTables, MakesTablesAndFigures) {
               HasSubstr("t.csv: it is no folder"));
 }
 
+TEST_F(WhsTables, FolderThatNothingWasWrittenTo_IsNotLeft) {
+  const Arguments figures = {"tables",    file("good.sqlite"), "--figures",
+                             file("a/b"), "--failures",        file("c") + "/"};
+  EXPECT_EQ(runProgram("trap '' XFSZ; ulimit -f 0; " BORESIGHT_WHS, figures).exit_code, 3);
+  EXPECT_EQ(runWhs(with(figures, {"--station", "nosuch"})).exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(file("a")));
+  EXPECT_FALSE(std::filesystem::exists(file("c")));
+}
+
 TEST_F(WhsTables, Signal_KeepsTheTablesAndTheSheetsThatAreDrawn) {
   runWhs(with({"evaluate", "--dataset", exampleDataset(), "--station", "os", "--reseed", "30",
                "--out", file("many.sqlite")},

@@ -63,10 +63,17 @@ TEST_F(ReviewCommands, DecisionThatCannotBeSaved_IsNotLeftToBeRecovered) {
     document.apply(next, "Look at it");
   }
   const std::string left = folder_.read("s.boresight.journal");
-  EXPECT_EQ(runWithoutSpace(deciding({"--reject", "--recover"})).exit_code, 3);
-  EXPECT_EQ(folder_.read("s.boresight.journal"), left);
+  for (const Arguments& command :
+       {deciding({"--reject", "--recover"}), Arguments{"run", session_, "--recover"}}) {
+    const ProgramRun refused = runWithoutSpace(command);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, Not(HasSubstr("Look at it"))) << command[0];
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(folder_.read("s.boresight.journal"), left) << command[0];
+    EXPECT_EQ(folder_.read("s.boresight.json"), before);
+  }
   EXPECT_THAT(runWhs(deciding({"--reject", "--recover"}), 0).err,
-              HasSubstr("edit taken from the journal: Look at it\n"));
+              HasSubstr("edit taken from the journal and saved: Look at it\n"));
   EXPECT_FALSE(std::filesystem::exists(journal));
 }
 

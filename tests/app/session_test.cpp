@@ -346,7 +346,8 @@ TEST(WhsRun, RefusesWhatItMustNotTouch) {
   }
   EXPECT_THAT(runWhs({"run", file}, 3).err, HasSubstr("1 edit was never saved"));
   EXPECT_THAT(runWhs({"check", file}, 3).err, HasSubstr("recover with `whs decide --recover`"));
-  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 unsaved edit is in its journal"));
+  EXPECT_THAT(runWhs({"info", file}).out,
+              HasSubstr("1 edit was never saved: recover with `whs decide"));
   runWhs({"pack", file, "--out", folder / "p.zip"}, 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "p.zip"));
 }

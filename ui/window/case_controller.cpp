@@ -520,11 +520,7 @@ bool CaseController::editCase(const std::string& id,
 void CaseController::useAsSeed(const Pose& camera_from_station) {
   editCase(
       shownCaseId(document_, state_),
-      [&](sessions::SessionCase& changed) {
-        changed.has_seed = true;
-        changed.camera_from_station_seed = camera_from_station;
-        changed.camera_from_station_working.reset();
-      },
+      [&](sessions::SessionCase& changed) { sessions::setSeed(changed, camera_from_station); },
       tr("Move the seed of %1"));
 }
 

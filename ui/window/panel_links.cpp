@@ -7,6 +7,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/session/case_frames.h"
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/stated_inputs.h"
 #include "ui/annotation/annotation_panel.h"
@@ -235,12 +236,15 @@ void PanelLinks::linkFrames() {
           [this](const sessions::FrameTransform& transform) {
             const sessions::SessionCase* shown = shownCase(parts_.document, parts_.state);
             if (!shown) return;
-            const auto remove = [&transform](sessions::SessionCase& changed) {
-              std::erase(changed.frames, transform);
-            };
-            parts_.document.edit(
-                sessions::withChanged(parts_.document.session(), shown->id, remove),
-                tr("Remove %1 of %2").arg(fromText(transform.comment), fromText(shown->id)));
+            std::vector<sessions::FrameTransform> frames = shown->frames;
+            std::erase(frames, transform);
+            try {
+              parts_.document.edit(
+                  sessions::withFrames(parts_.document.session(), shown->id, frames),
+                  tr("Remove %1 of %2").arg(fromText(transform.comment), fromText(shown->id)));
+            } catch (const std::exception& error) {
+              Q_EMIT failed(QString::fromUtf8(error.what()));
+            }
           });
 }
 

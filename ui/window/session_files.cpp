@@ -443,7 +443,7 @@ bool SessionFiles::askForUnits(DroppedFiles& files) {
 }
 
 bool SessionFiles::save() {
-  if (parts_.document.isUntitled()) return saveAs();
+  if (parts_.document.isUntitled() || !parts_.document.isEditable()) return saveAs();
   return parts_.document.save();
 }
 

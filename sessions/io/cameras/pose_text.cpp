@@ -12,6 +12,7 @@
 
 #include "core/base/math.h"
 #include "sessions/io/json/json_reader.h"
+#include "sessions/text/text_reading.h"
 #include "sessions/text/units.h"
 
 namespace boresight::sessions {
@@ -112,6 +113,33 @@ bool hasSeparateSign(std::string_view text) {
     }
   }
   return false;
+}
+
+/// Whether the rest of a line behind the mark of a list's item is one: a number, or a list.
+bool isListItem(std::string_view item) {
+  return item.starts_with('[') || numbersIn(item).size() == 1;
+}
+
+/// The text without the marks of a YAML list, whose items have a line each: "- 0.5", "- - 1",
+/// "- [1, 0]". Unchanged where a dash may be a sign: when a line with numbers is no item.
+std::string withoutListMarks(std::string_view text) {
+  std::string unmarked;
+  int items = 0;
+  for (TextLines lines(text); lines.next();) {
+    std::string_view line = lines.line();
+    const std::string_view whole = line;
+    const auto skip_blanks = [&line] {
+      line.remove_prefix(std::min(line.find_first_not_of(kTextBlanks), line.size()));
+    };
+    for (skip_blanks(); line.starts_with("- "); skip_blanks()) line.remove_prefix(2);
+    const std::string_view marks = whole.substr(0, whole.size() - line.size());
+    if (!numbersIn(line).empty()) {
+      if (!contains(marks, "-") || !isListItem(line)) return std::string(text);
+      ++items;
+    }
+    unmarked += std::string(line) + "\n";
+  }
+  return items < 2 ? std::string(text) : unmarked;
 }
 
 /// Whether a comma is or may be a decimal comma: "0,5; 1,25", "0 0 1 0,2 0 0". A decimal point and
@@ -261,7 +289,7 @@ ParsedPose parsePose(std::string_view text, const PoseReading& reading) {
     return refused(PoseForm::kMatrix,
                    "A character beyond ASCII is in front of a number: write "
                    "signs and digits in ASCII.");
-  if (hasSeparateSign(text))
+  if (hasSeparateSign(withoutListMarks(text)))
     return refused(PoseForm::kMatrix,
                    "A sign is separate from its number: write signs directly in front of digits.");
   if (hasDecimalCommas(text))

@@ -40,7 +40,8 @@ struct ParsedPose {
 
 /// Reads 16 or 12 numbers (a matrix, with or without its last row), 7 (quaternion, then
 /// translation) or 6 (rotation vector in deg, then translation); words, brackets, commas and
-/// semicolons between them, and numbers that belong to a name (p1), are ignored. Rejects a matrix
+/// semicolons between them, marks of a YAML list, and numbers that belong to a name (p1), are
+/// ignored. Rejects a matrix
 /// that is not a rotation within 1e-4, a last row other than 0 0 0 1, and a quaternion whose length
 /// is not 1 to 1e-4.
 ParsedPose parsePose(std::string_view text, const PoseReading& reading);

@@ -123,15 +123,6 @@ fs::path temporaryName(const fs::path& target) {
   }
 }
 
-/// The rename itself must survive a power cut. The data is already safe, and not every file system
-/// can synchronize a folder, so a refusal is not reported.
-void syncFolder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  (void)::fsync(descriptor);
-  ::close(descriptor);
-}
-
 /// Waits until the bytes of all files below a folder are stored, and their names.
 void syncBelow(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
@@ -177,6 +168,13 @@ void logWritten(const fs::path& target) {
 
 }  // namespace
 
+void syncFolder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  (void)::fsync(descriptor);
+  ::close(descriptor);
+}
+
 fs::path linkTarget(const fs::path& file) {
   constexpr int kMaxLinks = 40;
   fs::path target = file;
@@ -210,7 +208,7 @@ void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> byt
   if (target.mode) temporary.setMode(*target.mode);
   temporary.finish();
   temporary.renameTo(target.file);
-  syncFolder(folderOf(target.file));
+  syncFolder(folderOf(target.file));  // the rename must survive a power cut
   noteOutput(target.file, use);
   logWritten(target.file);
 }

@@ -28,6 +28,10 @@ void writeFileAtomically(const std::filesystem::path& file, std::string_view tex
 void moveIntoPlace(const std::filesystem::path& finished, const std::filesystem::path& file,
                    FileUse use = FileUse::kInput);
 
+/// Waits until the names of the files in a folder are stored. Not every file system can: a refusal
+/// is not reported.
+void syncFolder(const std::filesystem::path& folder);
+
 /// Throws OutputError when `file` evidently cannot be written (its folder is missing or read-only,
 /// it is a folder): called before long work; writing may still fail.
 void requireWritable(const std::filesystem::path& file, FileUse use = FileUse::kInput);

@@ -5,7 +5,6 @@
 
 #include "sessions/checks/pose_uncertainty.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/matchers.h"
@@ -53,9 +52,8 @@ TEST(Trends, PointOfASessionIsItsCorrection) {
   const LocalizationTrace run = runCase(session, *loaded);
   ASSERT_TRUE(run.converged());
   session = withRun(session, storeRun(session, id, run, file));
-  writeSessionFile(file, session);
   std::vector<std::string> remarks;
-  const auto points = trendOf({&file, 1}, remarks);
+  const auto points = trendOf(session, file, remarks);
   ASSERT_EQ(points.size(), 1u);
   EXPECT_THAT(remarks, ElementsAre(HasSubstr("has no run")));  // the other case
   SessionCase session_case = *session.cases.front();

@@ -110,6 +110,10 @@ TEST(CaseRun, RunWithChangedOptions_IsRepeatedFromItsRecord) {
   EXPECT_EQ(runCase(*loaded, read).digest, record.digest);
   EXPECT_THAT(folder.message([&] { (void)planOf(reread.runs[0], reread, file); }),
               HasSubstr("the session's options have changed since the run"));
+  RunRecord former = reread.runs[0];
+  former.version = "1.0.0";
+  EXPECT_THAT(folder.message([&] { (void)planOf(former, reread, file); }),
+              HasSubstr("it is from version 1.0.0, whose profiles may differ"));
   const Session elsewhere = withChanged(reread, id, [](SessionCase& changed) {
     changed.camera_from_station_seed.translation_m.x() += 1e-6;
   });

@@ -320,6 +320,69 @@ TEST_F(SessionDocumentTest, OpensInAReadOnlyFolderToBeRead) {
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
+TEST_F(SessionDocumentTest, UnsavedEditsInAReadOnlyFolder_AreSavedUnderAnotherName) {
+  leaveUnsaved(2);
+  const TemporaryFolder other;
+  ::chmod(other.path().c_str(), 0777);
+  ::chmod(folder.path().c_str(), 0555);
+  const std::string said = inChild([&] {
+    stopBeingRoot();
+    SessionDocument document = SessionDocument::open(file);
+    document.acceptRecovery();
+    if (!document.readOnly() || !document.modified()) return std::string("no recovered edits");
+    document.discardChanges();
+    if (document.modified()) return std::string("not discarded");
+    document = SessionDocument::open(file);
+    document.acceptRecovery();
+    document.saveAs(other / "t.json");
+    document.apply(edited(document.session(), 3), "x");
+    document.save();
+    return std::string("saved");
+  });
+  ::chmod(folder.path().c_str(), 0755);
+  EXPECT_EQ(said, "saved");
+  EXPECT_TRUE(readSessionFile(other / "t.json").session == edited(first, 3));
+  EXPECT_TRUE(readSessionFile(file).session == first);
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.journal"));
+}
+
+/// Names that differ in ".json" alone.
+TEST_F(SessionDocumentTest, SessionsNextToEachOther_HaveTheirOwnCompanions) {
+  for (const char* name : {"s", "s.boresight", "s.boresight.json"})
+    (void)SessionDocument::create(folder / name, first);
+  leaveUnsaved(2);
+  for (const char* name : {"s", "s.boresight", "s.boresight.json"}) {
+    SessionDocument document = SessionDocument::open(folder / name);
+    document.apply(edited(first, 7), "x");
+    for (const char* other : {"s", "s.boresight", "s.boresight.json"}) {
+      if (other == std::string(name)) continue;
+      const SessionDocument next = SessionDocument::open(folder / other);
+      EXPECT_FALSE(next.readOnly()) << name << ", " << other;
+      EXPECT_FALSE(next.recovery());
+    }
+    document.save();
+  }
+  EXPECT_EQ(SessionDocument::open(file).recovery()->edits.size(), 2u);
+}
+
+TEST_F(SessionDocumentTest, SavedRecovery_IsWholeOrHasNotHappened) {
+  leaveUnsaved(2);
+  const std::string journal = folder.read("s.journal");
+  SessionDocument document = SessionDocument::open(file);
+  const std::string before = folder.read("s.json");
+  folder.write("s.json", before + " ");  // by another program
+  EXPECT_THROW(document.saveRecovery(), OutputError);
+  EXPECT_EQ(folder.read("s.journal"), journal);
+  EXPECT_EQ(document.recovery()->edits.size(), 2u);
+  EXPECT_FALSE(document.modified());
+  folder.write("s.json", before);
+  document.saveRecovery();
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+  EXPECT_TRUE(readSessionFile(file).session == edited(first, 2));
+  document.apply(edited(first, 3), "x");
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.journal"));
+}
+
 TEST_F(SessionDocumentTest, AFullDiskLeavesFileAndSessionAsTheyWere) {
   SessionDocument::create(file, first);
   const std::string before = folder.read("s.json");

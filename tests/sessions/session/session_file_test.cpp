@@ -65,7 +65,7 @@ TEST(SessionFile, NamesFilesRelativeToItself) {
 TEST(SessionFile, CompanionFiles_HaveTheirNames) {
   EXPECT_EQ(journalFileOf("/a/x.boresight.json"), "/a/x.boresight.journal");
   EXPECT_EQ(lockFileOf("/a/x.json"), "/a/x.lock");
-  EXPECT_EQ(runsFolderOf("/a/x.sol12"), "/a/x.sol12.runs");
+  EXPECT_EQ(runsFolderOf("/a/x.sol12"), "/a/x.sol12-runs");
   EXPECT_EQ(runFileOf("/a/x.json", "d"), "/a/x.runs/d.trace");
 }
 

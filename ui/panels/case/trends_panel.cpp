@@ -10,7 +10,7 @@
 #include <QtWidgets>
 
 #include "sessions/session/session_difference.h"
-#include "sessions/session/session_file.h"
+#include "sessions/session/session_document.h"
 #include "ui/models/text.h"
 #include "ui/plots/plots.h"
 #include "ui/state/document.h"
@@ -120,7 +120,11 @@ void TrendsPanel::follow() {
           std::ranges::move(sessions::trendOf(one, path, remarks, stop),
                             std::back_inserter(trend.points));
         };
-        for (const auto& path : earlier) add(sessions::readSessionFile(path).session, path);
+        for (const auto& path : earlier) {
+          const auto one = sessions::SessionDocument::open(path, sessions::Access::kReadOnly);
+          one.requireNothingUnsaved();
+          add(one.session(), path);
+        }
         add(session, file);
         sessions::flagOutliers(trend.points);
         for (const std::string& remark : remarks) trend.remarks << fromText(remark);

@@ -116,6 +116,23 @@ TEST(ParsePose, SignsAndCommasOfOtherTexts_AreNamed) {
     EXPECT_EQ(problem(text), "") << text;
 }
 
+TEST(ParsePose, DashesOfAYamlList_AreNoSigns) {
+  const Pose plain = parsePose("1 -2 3 4 5 -6", {}).camera_from_station;
+  for (const char* text :
+       {"- 1\n- -2\n- 3\n- 4\n- 5\n- -6\n", "rotation:\n  - 1\n  - -2\n  - +3\nt:\n- 4\n- 5\n- -6",
+        "- - 1.0\r\n  - -2.0\r\n  - 3.0\r\n- - 4.0\r\n  - 5.0\r\n  - -6.0\r\n",
+        "pose:\n- [1, -2, 3]\n- [4, 5, -6]\n"}) {
+    EXPECT_EQ(parsePose(text, {}).problem, "") << text;
+    EXPECT_EQ(parsePose(text, {}).camera_from_station, plain) << text;
+  }
+  const std::string matrix =
+      "- - 1.0\n  - 0.0\n  - 0\n  - 0.5\n- [0, 1, 0, -1]\n- [0, 0, 1, 2]\n- [0, 0, 0, 1]\n";
+  EXPECT_EQ(parsePose(matrix, guessReading(matrix)).problem, "");
+  for (const char* text : {"- 1 2 3\n- 4 5 6\n", "- 1 2 3 4 5 6", "- 1\n- 2\n3\n4\n5\n- 6",
+                           "- 1\n- 2\n- 3\n- 4\n- 5\n-[6]", "- 1\n- 2\n- 3\n- 4\n- 5\n- [- 6]"})
+    EXPECT_THAT(parsePose(text, {}).problem, testing::StartsWith("A sign is separate")) << text;
+}
+
 TEST(ParsePose, ProjectsAMatrixThatIsNearlyARotationAndSaysSo) {
   const ParsedPose parsed = parsePose("1.00001 0 0 0 0 1 0 0 0 0 1 0", PoseReading());
   ASSERT_TRUE(parsed.valid);

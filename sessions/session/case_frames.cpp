@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_frames.h"
+
+#include <utility>
+
+#include "core/base/math.h"
+#include "sessions/io/cameras/frame_tree.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/images/labels/image_label.h"
+#include "sessions/session/rig_links.h"
+
+namespace boresight::sessions {
+namespace {
+
+/// Half-widths of a seed's uncertainty that a covariance is taken as, in sigmas.
+constexpr double kSeedSigmas = 3.0;
+/// A pose this close to a chain comes from it: a session stores its bits. rad, m
+constexpr double kSamePose = 1e-9;
+
+bool isSame(const std::optional<Pose>& a, const std::optional<Pose>& b) {
+  return a && b && perturbationBetween(*a, *b).norm() <= kSamePose;
+}
+
+/// Empty when the case's frames do not join the frame to the camera.
+std::optional<Pose> cameraFromFrame(const SessionCase& session_case, const FrameName& frame) {
+  if (const auto& reference = session_case.camera_reference; frame.name.empty())
+    return reference ? std::optional(reference->camera_from_reference) : std::nullopt;
+  const auto chain = framesOf(session_case).chain(kCameraFrame, frame);
+  return chain ? std::optional(chain->a_from_b) : std::nullopt;
+}
+
+[[noreturn]] void refuseCut(const SessionCase& session_case, const std::string& pose,
+                            const FrameName& frame) {
+  throw InputError("case " + session_case.id,
+                   "the " + pose + " comes from the frames between CAMERA and " + frameText(frame) +
+                       ", which would no longer be joined: give the " + pose +
+                       " as camera_from_station first, or make a new case");
+}
+
+/// The pose of a station that was given in a named frame, by the new frames.
+Pose keptInFrame(const SessionCase& former, const SessionCase& changed, const std::string& name,
+                 const FrameName& frame, const Pose& camera_from_station) {
+  const auto before = cameraFromFrame(former, frame);
+  const auto after = cameraFromFrame(changed, frame);
+  if (!before || before == after) return camera_from_station;
+  if (!after) refuseCut(changed, name, frame);
+  return *after * (before->inverse() * camera_from_station);
+}
+
+void setLimits(const DeclaredUncertainty& from, DeclaredUncertainty& to) {
+  to.translation_m = from.translation_m;
+  to.rotation_deg = from.rotation_deg;
+}
+
+/// Of a seed that is the chain between CAMERA and STATION, with its uncertainty.
+void followChain(const SessionCase& former, SessionCase& changed) {
+  const auto before = seedOfFrames(framesOf(former));
+  if (!before || !isSame(before->camera_from_station, changed.camera_from_station_seed)) return;
+  const auto after = seedOfFrames(framesOf(changed));
+  if (!after) refuseCut(changed, "seed", kStationFrame);
+  changed.camera_from_station_seed = after->camera_from_station;
+  DeclaredUncertainty limits = changed.uncertainty;
+  setLimits(before->uncertainty.value_or(DeclaredUncertainty()), limits);
+  if (limits == changed.uncertainty)
+    setLimits(after->uncertainty.value_or(DeclaredUncertainty()), changed.uncertainty);
+}
+
+void followSeed(const SessionCase& former, SessionCase& changed) {
+  if (!changed.has_seed) return;
+  const Pose seed = changed.camera_from_station_seed;
+  if (changed.station_frame)
+    changed.camera_from_station_seed =
+        keptInFrame(former, changed, "seed", *changed.station_frame, seed);
+  else
+    followChain(former, changed);
+  if (!(changed.camera_from_station_seed == seed)) changed.camera_from_station_working.reset();
+}
+
+/// The place of the case's camera in its rig, where frames state it.
+void followRig(const Session& session, const SessionCase& former, SessionCase& changed) {
+  for (const std::string& id : casesOfRig(session, former.id)) {
+    const SessionCase& other = *session.findCase(id);
+    const auto before = linkOfFrames(former, other);
+    if (!before || !isSame(before->other_from_case, linkOfRig(former, other))) continue;
+    if (const auto after = linkOfFrames(changed, other)) {
+      const Pose& camera_from_rig = other.rig->camera_from_rig;
+      if (!(after->other_from_case == before->other_from_case))
+        changed.rig->camera_from_rig = after->other_from_case.inverse() * camera_from_rig;
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<PoseFile> seedOfFrames(const FrameTree& frames) {
+  const auto chain = frames.chain(kCameraFrame, kStationFrame);
+  if (!chain) return std::nullopt;
+  PoseFile seed;
+  seed.camera_from_station = chain->a_from_b;
+  if (!chain->covariance_stated) return seed;
+  const Vector6d limits = kSeedSigmas * sigmasOf(chain->covariance);
+  DeclaredUncertainty& uncertainty = seed.uncertainty.emplace();
+  uncertainty.rotation_deg = limits.head<3>() / kDegree_rad;
+  uncertainty.translation_m = limits.tail<3>();
+  return seed;
+}
+
+void addLabelFrames(const std::filesystem::path& image,
+                    const std::optional<CameraReference>& reference,
+                    std::vector<FrameTransform>& transforms) {
+  if (!hasImageLabel(image)) return;
+  for (const LabelFrame& stated : readImageLabel(image).frames) {
+    if (stated.frame == stated.reference ||
+        frameTree(reference, transforms).chain(stated.reference, stated.frame))
+      continue;
+    FrameTransform transform;
+    transform.target = stated.reference;
+    transform.source = stated.frame;
+    transform.target_from_source = stated.reference_from_frame;
+    transform.origin = TransformSource::kLabel;
+    transform.comment = "the image's label";
+    transform.file = image;
+    transform.file_sha256 = inputSha256(image);
+    transforms.push_back(std::move(transform));
+  }
+}
+
+void followFrames(const SessionCase& former, SessionCase& changed) {
+  const auto before = cameraFromFrame(former, kEndEffectorFrame);
+  const auto after = cameraFromFrame(changed, kEndEffectorFrame);
+  if (!(before == after) && isSame(before, changed.camera_from_end_effector))
+    changed.camera_from_end_effector = after;
+  followSeed(former, changed);
+  if (changed.camera_from_station_truth && changed.truth_frame)
+    changed.camera_from_station_truth = keptInFrame(former, changed, "truth", *changed.truth_frame,
+                                                    *changed.camera_from_station_truth);
+}
+
+Session withFrames(const Session& session, const std::string& case_id,
+                   std::vector<FrameTransform> frames) {
+  const SessionCase& former = knownCase(session, case_id);
+  SessionCase changed = former;
+  changed.frames = std::move(frames);
+  followFrames(former, changed);
+  followRig(session, former, changed);
+  return withCase(session, std::move(changed));
+}
+
+}  // namespace boresight::sessions
