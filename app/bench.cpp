@@ -163,6 +163,7 @@ nlohmann::ordered_json toJson(const std::vector<LocalizationFigure>& figures) {
 
 int bench(const BenchArguments& arguments) {
   requireWritable({arguments.json});
+  arguments.options.noteUnlimited();
   const std::vector<LocalizationFigure> figures = measure(arguments);
   printFigures(figures);
   if (!arguments.json.empty()) sessions::writeJsonFile(arguments.json, toJson(figures));

@@ -195,7 +195,8 @@ sessions::MethodOptions methodProfile(const std::string& name) {
 void OptionArguments::addTo(CLI::App& command) {
   addChoice(command, "--profile", profile, {"default", "paper", "flight"},
             "Set of options: default (recommended settings), paper (as published), or flight "
-            "(default for gray images, within 10,000,000 bytes including image and mesh)");
+            "(default for gray images; localize, follow and evaluate stay within 10,000,000 bytes "
+            "including image and mesh)");
   addFile(command, "--config", config, "config.json: a profile and options that differ from it");
   addOption(command, "--set", "NAME=VALUE", assignments,
             "Sets an option, e.g. pnp.seed=7; `whs options` lists all");
@@ -226,6 +227,11 @@ std::string OptionArguments::profileName() const {
 
 std::size_t OptionArguments::memoryLimit() const {
   return profileName() == kFlightProfile ? sessions::kFlightMemoryBytes : 0;
+}
+
+void OptionArguments::noteUnlimited() const {
+  if (memoryLimit() > 0)
+    note("only localize, follow and evaluate have the memory limit of profile " + profileName());
 }
 
 namespace {

@@ -106,6 +106,8 @@ struct OptionArguments {
   std::string profileName() const;
   /// Bytes for a run and its inputs; 0 where the profile sets no limit.
   std::size_t memoryLimit() const;
+  /// For commands without that limit: prints a note where the profile sets it.
+  void noteUnlimited() const;
 };
 
 /// --frames: transforms that join the frame of a pose to that of a camera model.

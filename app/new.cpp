@@ -107,7 +107,7 @@ int makeNew(const NewArguments& arguments) {
     for (const std::string& warning : sessions::labelWarnings(*session_case))
       note("case " + session_case->id + ": " + warning);
   if (arguments.results.empty()) {
-    // A session does not limit memory: of the profile of flight it has the options.
+    arguments.options.noteUnlimited();
     const std::string name = arguments.options.profileName();
     session = withOptions(session, sessions::profileOptions(name) ? name : "default",
                           arguments.options.read());

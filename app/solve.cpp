@@ -29,7 +29,7 @@ struct SolveArguments {
     CLI::Option* from_session =
         addFile(command, "--session", session,
                 "Session with the case; solved as in the desktop program: with the annotations of "
-                "its rig's other cases, from its working pose or seed");
+                "its rig's other cases, from its seed");
     CLI::Option* of_case = addOption(command, "--case", "ID", case_id, "Case");
     command.add_flag("--alone", alone, "Leave out the other cases of its rig")->needs(from_session);
     CLI::Option* from_seed = addFile(command, "--seed", seed,

@@ -150,6 +150,7 @@ ordered_json toJson(const RigRun& run) {
 
 int localizeRigs(const ViewsArguments& arguments) {
   const LocalizerOptions options = arguments.options.read();
+  arguments.options.noteUnlimited();
   const sessions::Dataset dataset = sessions::readDataset(arguments.dataset);
   requireWritable({arguments.out});
   for (const std::string& line : dataset.notes) note(line);

@@ -67,8 +67,8 @@ std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int ax
 std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& limits,
                              const ConvergenceResult& convergence = {});
 
-/// Checks of the run itself: convergence, shrinking corrections, and the last matching iteration's
-/// inliers, their spread, window borders and margins. Always the same checks in the same order; not
+/// Checks of the run itself: convergence, shrinking corrections, and of lastMatching() inliers,
+/// their spread, window borders and margins. Always the same checks in the same order; not
 /// applicable to a pose from annotations.
 void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
                   std::vector<Check>& checks);
@@ -76,8 +76,8 @@ void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
 /// Whether the run on the ground equals the onboard run, if the case has its onboard record.
 void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks);
 
-/// Inliers of lastMatching(); 0 when there is none.
-std::int32_t lastInliers(const LocalizationTrace& run);
+/// Inliers of lastMatching(), if there is one.
+std::optional<std::int32_t> lastInliers(const LocalizationTrace& run);
 
 /// Index of the iteration to open first: the last failed one of a run that did not converge, else
 /// the last one; -1: none.

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sessions/checks/generalized_eigen.h"
 #include "sessions/decision/check.h"
 #include "sessions/text/plain_text.h"
-#include "sessions/trace/decisive_attempt.h"
+#include "sessions/trace/decisive_iterations.h"
 #include "sessions/trace/match_details.h"
 #include "sessions/trace/run_text.h"
 
@@ -45,13 +46,12 @@ Check convergedCheck(const LocalizationTrace& run) {
 }
 
 Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) {
-  std::vector<std::shared_ptr<const IterationTrace>> iterations = decisiveAttempt(run);
+  std::vector<std::shared_ptr<const IterationTrace>> iterations = decisiveIterations(run);
   if (!iterations.empty() && !cameToPose(*iterations.back()))
     return notAskedCheck(kCorrections, "The last iteration has no pose.");
   std::erase_if(iterations, [](const auto& item) { return !cameToPose(*item); });
   if (iterations.size() < 2)
-    return notAskedCheck(kCorrections,
-                         "Fewer than two iterations of the attempt that led to the pose have one.");
+    return notAskedCheck(kCorrections, "Fewer than two iterations led to the pose.");
   const double first_px = iterations.front()->correction_image_px;
   const double last_px = iterations.back()->correction_image_px;
   const std::string found = "The first iteration moved the station by " + sentenceNumber(first_px) +
@@ -65,8 +65,8 @@ void addCounts(const IterationTrace& iteration, const CheckLimits& limits,
                std::vector<Check>& checks) {
   const double inliers = iteration.pnp.inlier_count;
   const double matches = iteration.correspondence_count;
-  const std::string found = count(inliers) + " of " + count(matches) +
-                            " matches of the last matching iteration agree on the pose.";
+  const std::string found = "In the last matching iteration that led to the pose, " +
+                            count(inliers) + " of " + count(matches) + " matches agree.";
   checks.push_back(
       measuredCheck(kCount, "", inliers, limits.inlier_count, LimitSide::kAtLeast, found,
                     "Few inliers may agree by chance: check unmatched templates and the mesh."));
@@ -158,7 +158,7 @@ void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
   const std::shared_ptr<const IterationTrace> iteration = lastMatching(run);
   if (iteration == nullptr)
     return addNotAsked({kCount, kRatio, kSpread, kDepth, kBorder, kMargin},
-                       "The attempt that led to the pose has no matching iteration.", checks);
+                       "No matching iteration led to the pose.", checks);
   addCounts(*iteration, limits, checks);
   const InlierPlaces places = inlierPlaces(*iteration);
   checks.push_back(spreadCheck(places, limits));
@@ -224,9 +224,10 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
   }
 }
 
-std::int32_t lastInliers(const LocalizationTrace& run) {
+std::optional<std::int32_t> lastInliers(const LocalizationTrace& run) {
   const std::shared_ptr<const IterationTrace> iteration = lastMatching(run);
-  return iteration == nullptr ? 0 : iteration->pnp.inlier_count;
+  if (iteration == nullptr) return std::nullopt;
+  return iteration->pnp.inlier_count;
 }
 
 int iterationToOpen(const LocalizationTrace& run) {

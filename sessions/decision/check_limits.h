@@ -47,7 +47,7 @@ struct CheckLimits {
           "Largest last correction relative to the first one, in the image; a first "
           "correction below a pixel counts as a pixel.");
     limit(self.inlier_count, "check.inlier_count", "", 0.0, 10000.0,
-          "Least number of inliers of the last matching iteration.");
+          "Least number of inliers of the last matching iteration that led to the pose.");
     limit(self.inlier_ratio_percent, "check.inlier_ratio_percent", "%", 0.0, 100.0,
           "Least share of inliers among the matches of that iteration.");
     limit(self.inlier_spread_percent, "check.inlier_spread_percent", "%", 0.0, 1000.0,

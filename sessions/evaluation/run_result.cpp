@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/json/json_writer.h"
-#include "sessions/trace/decisive_attempt.h"
+#include "sessions/trace/decisive_iterations.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {

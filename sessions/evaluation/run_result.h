@@ -94,8 +94,8 @@ struct RunResult {
   Pose camera_from_station_seed;
   Pose camera_from_station;
   std::int32_t iterations = 0;
-  std::int32_t matches = 0;  ///< of the last iteration that matched
-  std::int32_t inliers = 0;
+  std::int32_t matches = 0;  ///< of lastMatching(); 0 also without one
+  std::int32_t inliers = 0;  ///< likewise
   double edge_support = 0.0;
   /// Of runs with a search that found a pose: probability that the pose is correct, and its
   /// evidence.

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <opencv2/imgproc.hpp>
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/session/case_annotations.h"
+#include "sessions/trace/decisive_iterations.h"
 #include "sessions/trace/overlay.h"
 
 namespace boresight::sessions {
@@ -47,12 +49,12 @@ ReportPicture cut(const cv::Mat& bgr, const cv::Rect& area) {
   return {{part.cols, part.rows, {part.datastart, part.dataend}}, area.x, area.y};
 }
 
-/// The last iteration of a kind that came to a pose, or nullptr.
-const IterationTrace* lastOf(const LocalizationTrace& trace, IterationKind kind) {
-  const auto found =
-      std::find_if(trace.iterations.rbegin(), trace.iterations.rend(),
-                   [kind](const auto& item) { return item->kind == kind && item->support() > 0; });
-  return found == trace.iterations.rend() ? nullptr : found->get();
+/// The last refinement that led to the run's pose, or nullptr.
+std::shared_ptr<const IterationTrace> lastRefinement(const LocalizationTrace& run) {
+  std::shared_ptr<const IterationTrace> found;
+  for (const auto& item : decisiveIterations(run))
+    if (item->kind == IterationKind::kRefine && item->support() > 0) found = item;
+  return found;
 }
 
 ReportResiduals ofEdges(const PoseReport& report, const IterationTrace& iteration) {
@@ -129,10 +131,8 @@ double ReportResiduals::rms_px() const {
 ReportResiduals reportResiduals(const PoseReport& report) {
   if (report.pose.source == PoseSource::kAnnotation) return ofAnnotations(report);
   if (!report.trace) return {};
-  if (const auto* refined = lastOf(*report.trace, IterationKind::kRefine))
-    return ofEdges(report, *refined);
-  if (const auto* matched = lastOf(*report.trace, IterationKind::kMatch))
-    return ofTemplates(report, *matched);
+  if (const auto refined = lastRefinement(*report.trace)) return ofEdges(report, *refined);
+  if (const auto matched = lastMatching(*report.trace)) return ofTemplates(report, *matched);
   return {};
 }
 

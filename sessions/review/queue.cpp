@@ -260,7 +260,8 @@ std::string queueText(const std::vector<QueueRow>& rows) {
     const std::string share = row.from_seed ? fixedText(kPercent * from.share, 0) + " %" : "-";
     table.add({row.case_id, reviewStateText(row.review_state), std::to_string(row.failed),
                std::to_string(row.passed), marginText(row), fixedText(from.translation_mm, 2),
-               fixedText(from.rotation_mrad, 2), share, std::to_string(row.inliers),
+               fixedText(from.rotation_mrad, 2), share,
+               row.inliers ? std::to_string(*row.inliers) : "-",
                row.opens_at < 0
                    ? "-"
                    : std::to_string(row.opens_at + 1) + "/" + std::to_string(row.iterations)});
@@ -285,7 +286,7 @@ std::string queueCsv(const std::vector<QueueRow>& rows) {
                                   field(from.translation_mm),
                                   field(from.rotation_mrad),
                                   field(from.share),
-                                  std::to_string(row.inliers),
+                                  row.inliers ? std::to_string(*row.inliers) : "",
                                   std::to_string(row.iterations),
                                   row.opens_at < 0 ? "" : std::to_string(row.opens_at + 1),
                                   row.run_digest,

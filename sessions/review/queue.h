@@ -58,7 +58,7 @@ struct QueueRow {
   std::optional<double> margin;
   std::string margin_of;  ///< the title of that check
   std::optional<SeedDistance> from_seed;
-  std::int32_t inliers = 0;  ///< of the last matching iteration
+  std::optional<std::int32_t> inliers;  ///< lastInliers()
   int iterations = 0;
   /// Index of the iteration to open first: the one that failed, else the last; -1: none.
   int opens_at = -1;

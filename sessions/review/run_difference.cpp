@@ -133,6 +133,10 @@ std::string endText(const RunSide& side) {
   return side.status + ", " + std::to_string(side.iterations) + " iterations";
 }
 
+std::string inliersText(const RunSide& side) {
+  return side.inliers ? std::to_string(*side.inliers) : "-";
+}
+
 std::string checkText(const RunSide& side) {
   return std::to_string(side.checks_passed) + " passed, " + std::to_string(side.checks_failed) +
          " failed";
@@ -255,8 +259,7 @@ RunDifference compareRuns(const Session& session, const std::string& before_dige
 std::vector<DifferenceLine> differenceLines(const RunDifference& difference) {
   std::vector<DifferenceLine> lines = {
       {"Status", endText(difference.before), endText(difference.after)},
-      {"Inliers", std::to_string(difference.before.inliers),
-       std::to_string(difference.after.inliers)},
+      {"Inliers", inliersText(difference.before), inliersText(difference.after)},
       {"Checks", checkText(difference.before), checkText(difference.after)}};
   if (difference.before.error || difference.after.error)
     lines.push_back({"Error: along, across, rotation", errorText(difference.before),

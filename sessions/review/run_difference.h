@@ -26,7 +26,7 @@ struct RunSide {
   bool converged = false;
   bool wrong_mesh = false;  ///< a negative test: a pose found with it is wrong
   int iterations = 0;
-  std::int32_t inliers = 0;  ///< of the last matching iteration
+  std::optional<std::int32_t> inliers;  ///< lastInliers()
   int checks_passed = 0;
   int checks_failed = 0;
   /// Against the truth; empty when that is not known or the run did not converge.

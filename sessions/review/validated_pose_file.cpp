@@ -23,7 +23,7 @@
 #include "sessions/version.h"
 
 #include "sessions/text/utc_time.h"
-#include "sessions/trace/decisive_attempt.h"
+#include "sessions/trace/decisive_iterations.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {

@@ -128,8 +128,8 @@ struct VerifyReport {
   std::string
       review_status;  ///< who validated the pose, or NOT VALIDATED and why, as stated in the file
   std::vector<VerifyFinding> findings;
-  /// Statements that were not or cannot be verified: who decided, when, and why a failed check was
-  /// waived. One sentence each.
+  /// Statements that were not or cannot be verified: who decided, when, why a failed check was
+  /// waived, and a decision that is stated to hold no longer. One sentence each.
   std::vector<std::string> not_proved;
 
   bool validated = false;  ///< stated: by a person, and by a second one where that is required
@@ -143,11 +143,11 @@ struct VerifyPlaces {
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<std::filesystem::path> signers = std::nullopt;
 };
-/// Checks a validated_pose.json: its checksum, the files that it names by their hashes, whether
-/// the decision in it still holds, and whether all members follow from each other. With `run_again`
-/// the run is repeated (the annotations are solved again), and its digest, pose, covariance,
-/// matches and every check are compared with the file; with `convergence_again` also the
-/// convergence test. Missing files are searched below `places.folder` by their hashes; with
+/// Checks a validated_pose.json: its checksum, the files that it names by their hashes, whether the
+/// decision in it holds (or is stated not to), and whether all members follow from each other. With
+/// `run_again` the run is repeated (the annotations are solved again), and its digest, pose,
+/// covariance, matches and every check are compared with the file; with `convergence_again` also
+/// the convergence test. Missing files are searched below `places.folder` by their hashes; with
 /// `places.signers` the deciders must have signed the file with their keys (key_signature.h).
 /// InputError when the file is not a validated_pose.json.
 VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,

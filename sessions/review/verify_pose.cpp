@@ -141,11 +141,25 @@ bool verifyInputs(const Document& document, Findings& findings) {
   return all;
 }
 
-/// Whether the decision inside is one that this program would have let pass.
-void verifyDecision(const ReviewStatus& status, Findings& findings) {
+std::string noLongerHoldsText(const ReviewStatus& status) {
+  return "it no longer holds: " + status.dropped;
+}
+
+/// Whether the decision no longer holds, and the document states this.
+bool statesDropped(const Document& document, const ReviewStatus& status) {
+  const auto stated = document.json.find("review_status");
+  return !status.dropped.empty() && stated != document.json.end() &&
+         *stated == reviewStatusText(status);
+}
+
+/// Whether the decision inside is one that this program would have let pass. One that does not hold
+/// comes without its checks.
+void verifyDecision(const Document& document, const ReviewStatus& status, Findings& findings) {
   if (status.decision == nullptr) return note(findings, "decision", "", "there is no decision");
+  if (statesDropped(document, status)) return;  // it is listed as not proved
+  if (!status.holds()) return note(findings, "decision", noLongerHoldsText(status), "");
   const Decision& decision = *status.decision;
-  std::string wrong = status.dropped.empty() ? "" : "it no longer holds: " + status.dropped;
+  std::string wrong;
   for (const JudgedCheck& judged : decision.checks)
     if (decision.verdict == Verdict::kValidated && judged.check.state == CheckState::kFailed &&
         judged.waiver_reason.empty())
@@ -247,8 +261,10 @@ void listNotProved(const Document& document, const std::optional<MeasuredPose>& 
                                  : std::vector<std::string>();
   if (!reworded.empty())
     list.push_back("wording: this version words other titles or sentences for " + joined(reworded));
-  const Decision* decision = reviewStatusOf(document.session, document.pose.case_id).decision;
+  const ReviewStatus status = reviewStatusOf(document.session, document.pose.case_id);
+  const Decision* decision = status.decision;
   if (decision == nullptr) return;
+  if (statesDropped(document, status)) list.push_back("decision: " + noLongerHoldsText(status));
   const std::string approved = decision->approval ? " and " + decision->approval->by : "";
   if (!with_keys)
     list.push_back("who: " + decision->by + approved +
@@ -283,7 +299,7 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_a
   report.review_status = document.pose.review_status;
   report.validated = document.pose.validated;
   const bool inputs = verifyInputs(document, findings);
-  verifyDecision(status, findings);
+  verifyDecision(document, status, findings);
   verifyRunStated(document, findings);
   const Decision* decision = status.judgedPose();
   const int convergence_seeds =

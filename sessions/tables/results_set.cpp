@@ -103,7 +103,6 @@ RunSide sideOf(const RunResult& run) {
   side.status = run.status;
   side.converged = run.completed;
   side.iterations = run.iterations;
-  side.inliers = run.inliers;
   side.wrong_mesh = run.wrong_mesh;
   if (const PoseError* error = run.completedError(); error != nullptr && run.requirement) {
     side.error = *error;

@@ -248,7 +248,11 @@ TEST(WhsNew, EveryProfileMakesASession) {
   const TemporaryFolder folder;
   for (const char* profile : {"default", "paper", "flight"}) {
     const std::string out = folder / (std::string(profile) + ".boresight.json");
-    runWhs({"new", "--dataset", exampleDataset(), "--profile", profile, "--out", out}, 0);
+    const ProgramRun run =
+        runWhs({"new", "--dataset", exampleDataset(), "--profile", profile, "--out", out}, 0);
+    EXPECT_EQ(run.err.find("only localize, follow and evaluate have the memory limit") !=
+                  std::string::npos,
+              std::string(profile) == "flight");
     const sessions::Session session = sessions::readSessionFile(out).session;
     EXPECT_EQ(sessions::sessionOptions(session, out).search.color,
               std::string(profile) != "flight");

@@ -90,6 +90,10 @@ TEST_F(WhsViews, WhatIsNoRigIsRefused) {
     return runWhs({"views", "--dataset", dataset, "--rig", "pair"}, 3).err;
   };
   EXPECT_THAT(error(exampleDataset()), HasSubstr("no case names it"));
+  EXPECT_THAT(
+      runWhs({"views", "--dataset", exampleDataset(), "--rig", "pair", "--profile", "flight"}, 3)
+          .err,
+      HasSubstr("only localize, follow and evaluate have the memory limit of profile flight\n"));
   EXPECT_THAT(error(datasetOf(std::vector<Pose>(9))), HasSubstr("at most 8"));
   json two = jsonOf(datasetOf({Pose(), Pose()}));
   two["cases"][1]["station"] = "os";

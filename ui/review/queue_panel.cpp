@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <QIcon>
@@ -48,15 +49,27 @@ auto ofDifference(Value value) {
   };
 }
 
-/// A figure of both runs, and its sort key.
-auto bothRuns(int sessions::RunSide::*figure) {
-  return ofDifference([figure](Difference difference) {
-    return QStringLiteral("%1 → %2").arg(difference.before.*figure).arg(difference.after.*figure);
+/// A count of a run; kUnknown: none.
+using Count = double (*)(const sessions::RunSide& side);
+
+double failedChecksOf(const sessions::RunSide& side) { return side.checks_failed; }
+
+double inliersOf(const sessions::RunSide& side) { return side.inliers ? *side.inliers : kUnknown; }
+
+QString countOrDash(double count) {
+  return std::isnan(count) ? QStringLiteral("-") : numberText(count, 0);
+}
+
+/// A count of both runs, and its sort key.
+auto bothRuns(Count count) {
+  return ofDifference([count](Difference difference) {
+    return QStringLiteral("%1 → %2").arg(countOrDash(count(difference.before)),
+                                         countOrDash(count(difference.after)));
   });
 }
-auto increase(int sessions::RunSide::*figure) {
-  return ofDifference([figure](Difference difference) {
-    return difference.after.*figure - difference.before.*figure;
+auto increase(Count count) {
+  return ofDifference([count](Difference difference) {
+    return count(difference.after) - count(difference.before);
   });
 }
 
@@ -76,9 +89,10 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
                                                           : 2;
        })},
       {tr("Failed checks"), tr("Number of failed checks: before and after."), 0,
-       bothRuns(&sessions::RunSide::checks_failed), increase(&sessions::RunSide::checks_failed)},
-      {tr("Inliers"), tr("Inliers of the last matching iteration: before and after."), 0,
-       bothRuns(&sessions::RunSide::inliers), increase(&sessions::RunSide::inliers)},
+       bothRuns(failedChecksOf), increase(failedChecksOf)},
+      {tr("Inliers"),
+       tr("Inliers of the last matching iteration that led to the pose: before and after."), 0,
+       bothRuns(inliersOf), increase(inliersOf)},
       {tr("Poses apart"), tr("Distance of the two results at the camera, in mm and mrad."), 0,
        ofDifference(apartText),
        ofDifference([](Difference difference) { return difference.comparison.translation_mm; })},
@@ -160,8 +174,8 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
           "uncertainty (100 %: on its border)."),
        0, [](Entry entry) { return fromSeedText(entry.row); },
        [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kUnknown; }},
-      {tr("Inliers"), tr("Inliers of the last matching iteration."), 0,
-       [](Entry entry) { return entry.row.iterations > 0 ? entry.row.inliers : kUnknown; }},
+      {tr("Inliers"), tr("Inliers of the last matching iteration that led to the pose."), 0,
+       [](Entry entry) { return entry.row.inliers ? *entry.row.inliers : kUnknown; }},
   };
 }
 

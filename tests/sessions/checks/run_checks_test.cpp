@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "sessions/trace/decisive_iterations.h"
 #include "tests/sessions/checks/find_check.h"
 #include "tests/support/matchers.h"
 
@@ -174,9 +177,34 @@ TEST(RunChecks, RepeatedIterationOfAHypothesis_CountsAsTheAttemptOfTheHypothesis
   EXPECT_EQ(lastInliers(*subject.run), 10);
 
   iterations.erase(iterations.begin());
-  EXPECT_EQ(lastInliers(*subject.run), 0);
+  EXPECT_EQ(lastInliers(*subject.run), std::nullopt);
   EXPECT_THAT(checkOf(subject, "inlier_count").sentence,
-              HasSubstr("The attempt that led to the pose has no matching iteration."));
+              HasSubstr("No matching iteration led to the pose."));
+}
+
+/// Without refinement the repeated iteration matches again, at another threshold.
+TEST(RunChecks, RepeatedMatchOfAHypothesis_ReplacesTheOriginal) {
+  const auto ofAttempt = [](std::int32_t attempt, const MadeMatches& matches, double correction_px,
+                            double before_m) {
+    auto iteration = matching(matches, correction_px);
+    iteration->attempt = attempt;
+    iteration->camera_from_station_before.translation_m.x() = before_m;
+    return iteration;
+  };
+  ReviewSubject subject;
+  subject.run.emplace();
+  subject.run->status = LocalizationStatus::kConverged;
+  subject.run->hypotheses.resize(2);
+  subject.run->iterations = {ofAttempt(0, {.count = 40, .inliers = 20}, 10.0, 0.0),
+                             ofAttempt(0, {.count = 40, .inliers = 30}, 0.5, 0.1),
+                             ofAttempt(1, {.count = 40, .inliers = 1}, 500.0, 0.2),
+                             ofAttempt(2, {.count = 40, .inliers = 36}, 2.0, 0.1)};
+  EXPECT_EQ(lastMatching(*subject.run), subject.run->iterations.back());
+  EXPECT_EQ(lastInliers(*subject.run), 36);
+  EXPECT_EQ(checkOf(subject, "inlier_count").figure, 36.0);
+  EXPECT_EQ(checkOf(subject, "inlier_ratio").figure, 90.0);
+  EXPECT_NEAR(checkOf(subject, "corrections_shrink").figure.value(), 20.0, 1e-9);
+  EXPECT_EQ(decisiveIterations(*subject.run).size(), 2u) << "the first and the repeated one";
 }
 
 /// That the checks are the same in the same order is a test of checkPose.

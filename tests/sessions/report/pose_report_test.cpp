@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/report/pose_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/review_status.h"
 #include "sessions/text/text_table.h"
+#include "sessions/trace/decisive_iterations.h"
 #include "tests/support/annotated_example.h"
 #include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
@@ -101,6 +103,19 @@ TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
   EXPECT_THAT(first, HasSubstr(sessions::fixedText(1e3 * z_m, 4)));
   EXPECT_THAT(pageText(file, 2),
               AllOf(HasSubstr("at the time of the decision"), HasSubstr("the hose is known")));
+}
+
+TEST_F(PoseReportTest, WithoutRefinement_ResidualsAreOfTheMatchesThatTheChecksCount) {
+  session_.options = {{"refinement.enabled", false}, {"loop.inlier_threshold_px", 1.0}};
+  run();
+  const sessions::PoseReport report = sessions::poseReport(session_, id_);
+  ASSERT_FALSE(report.trace->hypotheses.empty()) << "the last iteration repeats the best one";
+  EXPECT_EQ(lastMatching(*report.trace), report.trace->iterations.back()) << "it gave the pose";
+  const auto inliers = std::ranges::find(report.pose.checks, "inlier_count",
+                                         [](const auto& judged) { return judged.check.id; });
+  const auto& residuals = reportResiduals(report).all;
+  EXPECT_EQ(std::ranges::count_if(residuals, &sessions::ReportResidual::used),
+            inliers->check.figure);
 }
 
 TEST_F(PoseReportTest, OfAnnotationsNeedsNoRun) {

@@ -179,7 +179,7 @@ TEST(QueueTable, HasEveryFigureInItsUnit) {
   const std::string text = queueText({rowWithFigures(), QueueRow()});
   EXPECT_THAT(text, testing::ContainsRegex(
                         "\na +converged +0 +20 +12 % +1\\.25 +2\\.50 +75 % +31 +7/9 *\n"));
-  EXPECT_THAT(text, testing::ContainsRegex("\n +new +0 +0 +- +- +- +- +0 +- *\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n +new +0 +0 +- +- +- +- +- +- *\n"));
   EXPECT_THAT(text, HasSubstr("\na: 20 checks passed, margin 12 %: Inliers\n"));
 }
 
@@ -190,7 +190,7 @@ TEST(QueueTable, CsvHasAllDigits) {
       "from_seed_share,inliers,iterations,look_at_iteration,run,trouble\r\n"
       "a,converged,0,20,0.125,Inliers,1.25,2.5,0.75,31,9,7,0123,\"20 checks passed, margin 12 "
       "%: Inliers\"\r\n"
-      ",new,0,0,,,,,,0,0,,,not run yet\r\n");
+      ",new,0,0,,,,,,,0,,,not run yet\r\n");
   QueueRow first = rowWithFigures();
   first.opens_at = 0;
   EXPECT_THAT(queueCsv({first}), HasSubstr(",31,9,1,0123,"));
@@ -380,7 +380,7 @@ TEST(QueueOfExample, TheCsvHasALinePerCaseWhateverItHolds) {
   row.case_id = "a,\"b\"";
   const std::string text = queueCsv({row, row});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
-  EXPECT_THAT(text, HasSubstr("\"a,\"\"b\"\"\",new,0,0,,,,,,0,0,,,not run yet"));
+  EXPECT_THAT(text, HasSubstr("\"a,\"\"b\"\"\",new,0,0,,,,,,,0,,,not run yet"));
 }
 
 /// Thumbnails of the example's first case, 144 x 108, with the station's edges at a pose.

@@ -125,6 +125,8 @@ TEST(DifferenceText, HasALinePerThingThatChanged) {
   EXPECT_THAT(lines(),
               ElementsAre("Status | converged, 9 iterations | pnp_failed, 4 iterations",
                           "Inliers | 31 | 3", "Checks | 20 passed, 1 failed | 2 passed, 5 failed"));
+  difference.after.inliers.reset();
+  EXPECT_THAT(lines(), Contains("Inliers | 31 | -")) << "no matching iteration led to its pose";
   difference.before.error.emplace();
   difference.before.error->normal_mm = 1.5;
   difference.before.error->lateral_mm = 2.25;

@@ -218,6 +218,22 @@ TEST_F(ValidatedPose, UnvalidatedPose_OfAnnotationsOrARun_IsLabelledAndVerifies)
   EXPECT_EQ(verified(file).review_status, "NOT VALIDATED: converged");
 }
 
+TEST_F(ValidatedPose, ValidationThatNoLongerHolds_IsStatedAndVerifiesAsNotProved) {
+  run();
+  validate();
+  session_ = withAnnotations(session_, id_, {});
+  const std::string dropped = "it no longer holds: the annotations have changed";
+  const fs::path file = write();
+  const VerifyReport report = verified(file);
+  EXPECT_FALSE(report.validated);
+  EXPECT_THAT(report.review_status, HasSubstr("the validation by Ada no longer holds"));
+  EXPECT_THAT(report.not_proved, Contains("decision: " + dropped));
+
+  const auto expectForged = forging(file);
+  expectForged(false, HasSubstr("decision: " + dropped),
+               [](ordered_json& json) { json["review_status"] = "validated by Ada"; });
+}
+
 TEST_F(ValidatedPose, RejectedRunNextToAnnotations_IsHandedOverAsRejectedAndVerifies) {
   session_.options = {{"loop.max_iterations", std::int64_t{1}}, {"search.enabled", false}};
   const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
