@@ -5,6 +5,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/io/files/errors.h"
 #include "ui/models/rows_model.h"
 #include "ui/widgets/widgets.h"
 
@@ -62,7 +63,8 @@ std::optional<sessions::StatedCalibration> InputSigmasDialog::calibrationSigma()
 JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)
     : QDialog(parent),
       former_end_effector_(one.camera_from_end_effector.value_or(Pose())),
-      former_requirement_(one.requirement.value_or(sessions::Requirement())) {
+      former_requirement_(one.requirement.value_or(sessions::Requirement())),
+      former_symmetries_(one.symmetries) {
   ui_.setupUi(this);
   const Eigen::Vector3d place_mm = 1e3 * former_end_effector_.translation_m;
   ui_.endEffectorStated->setChecked(one.camera_from_end_effector.has_value());
@@ -74,6 +76,23 @@ JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* pare
   ui_.normal->setValue(former.normal_mm.value_or(0.4));
   ui_.lateral->setValue(former.lateral_mm.value_or(0.4));
   ui_.rotation->setValue(former.rotation_deg.value_or(0.25));
+  ui_.symmetries->setText(fromText(sessions::symmetriesText(former_symmetries_)));
+  connect(ui_.symmetries, &QLineEdit::textChanged, this, &JudgementDialog::readSymmetries);
+  readSymmetries();
+}
+
+void JudgementDialog::readSymmetries() {
+  const std::string text = ui_.symmetries->text().toStdString();
+  QString problem;
+  try {
+    symmetries_ = text == sessions::symmetriesText(former_symmetries_)
+                      ? former_symmetries_
+                      : sessions::symmetriesIn(text);
+  } catch (const sessions::InputError& error) {
+    problem = fromText(error.field() + ": " + error.reason());
+  }
+  ui_.problem->setText(problem);
+  ui_.buttons->button(QDialogButtonBox::Ok)->setEnabled(problem.isEmpty());
 }
 
 std::optional<Pose> JudgementDialog::cameraFromEndEffector() const {

@@ -37,7 +37,8 @@ class InputSigmasDialog : public QDialog {
   double shown_centre_px_ = 0.0;
 };
 
-/// Asks for the point at which a pose is judged, and for its allowed errors.
+/// Asks for the point at which a pose is judged, its allowed errors, and the station's symmetries.
+/// Cannot be accepted while the text of the symmetries has no meaning.
 class JudgementDialog : public QDialog {
   Q_OBJECT
 
@@ -48,10 +49,16 @@ class JudgementDialog : public QDialog {
   std::optional<Pose> cameraFromEndEffector() const;
   /// A requirement in pixels is kept.
   std::optional<sessions::Requirement> requirement() const;
+  /// The former ones where the text is unchanged.
+  const sessions::Symmetries& symmetries() const { return symmetries_; }
 
  private:
+  void readSymmetries();
+
   Pose former_end_effector_;
   sessions::Requirement former_requirement_;
+  sessions::Symmetries former_symmetries_;
+  sessions::Symmetries symmetries_;
   Ui::JudgementDialog ui_;
 };
 
@@ -69,7 +76,7 @@ class InputSheetPanel : public QWidget {
  Q_SIGNALS:
   /// The operator asks to state the uncertainty of mesh and camera.
   void sigmasRequested();
-  /// The same for end effector and requirement.
+  /// The same for end effector, requirement and symmetries.
   void judgementRequested();
 
  private:
