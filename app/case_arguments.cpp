@@ -72,6 +72,29 @@ void CaseArguments::addRequirementTo(CLI::App& command) {
       ->check(numberIn(1e-6, 1e6));
 }
 
+void CaseArguments::addSymmetryTo(CLI::App& command) {
+  addOption(command, "--symmetry", "TEXT", symmetries,
+            "Turns after which the station looks the same, so that poses count as the same: \"z\" "
+            "any about its z axis, \"z 90\" by multiples of 90 deg, \"z 90 at X Y Z\" about a "
+            "line through a point (m), \"none\"; may be repeated");
+}
+
+std::optional<sessions::Symmetries> CaseArguments::statedSymmetries() const {
+  if (symmetries.empty()) return std::nullopt;
+  sessions::Symmetries all;
+  try {
+    for (const std::string& text : symmetries) {
+      const sessions::Symmetries stated = sessions::symmetriesIn(text);
+      all.discrete.insert(all.discrete.end(), stated.discrete.begin(), stated.discrete.end());
+      all.continuous.insert(all.continuous.end(), stated.continuous.begin(),
+                            stated.continuous.end());
+    }
+  } catch (const sessions::InputError& error) {
+    throw CLI::ValidationError("--symmetry", error.field() + ": " + error.reason());
+  }
+  return all;
+}
+
 void CaseArguments::addUncertaintyTo(CLI::App& command) {
   addUncertainty(command, uncertainty,
                  "Largest error of the seed along and about x, y, z of the camera: three lengths "
@@ -111,6 +134,7 @@ sessions::CaseFiles CaseArguments::files() const {
     files.camera_from_end_effector.emplace().translation_m =
         Eigen::Map<const Eigen::Vector3d>(end_effector_m.data());
   if (!requirement.empty()) files.requirement = requirementOf(requirement);
+  files.symmetries = statedSymmetries().value_or(sessions::Symmetries());
   if (!pivot.empty())
     files.pivot = pivot == "station" ? sessions::UncertaintyPivot::kStation
                                      : sessions::UncertaintyPivot::kCamera;

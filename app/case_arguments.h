@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct CaseArguments {
   std::vector<int> levels;
   std::string bayer;
   std::vector<double> uncertainty, end_effector_m, requirement;
+  std::vector<std::string> symmetries;
   std::string pivot;
 
   /// Adds all options but --uncertainty, --pivot and --truth. None is required.
@@ -28,6 +30,7 @@ struct CaseArguments {
   void addUncertaintyTo(CLI::App& command);
   void addEndEffectorTo(CLI::App& command);
   void addRequirementTo(CLI::App& command);
+  void addSymmetryTo(CLI::App& command);
   CLI::Option* addTruthTo(CLI::App& command);
   /// The camera file; without it the image, for the camera model in its label.
   const std::string& cameraFile() const { return camera.empty() ? image : camera; }
@@ -39,6 +42,8 @@ struct CaseArguments {
   void requireSeed() const;
   /// CLI::ValidationError.
   sessions::CaseFiles files() const;
+  /// As declared; empty: nothing stated. CLI::ValidationError.
+  std::optional<sessions::Symmetries> statedSymmetries() const;
   /// The options of a run: --feature-size, else --set or --config, else the case's feature size.
   LocalizerOptions optionsOf(const sessions::SessionCase& session_case) const;
 };

@@ -77,12 +77,6 @@ void describeRecord(const sessions::OnboardRecord& record) {
   for (const std::string& text : record.missing) flag("missing: " + text);
 }
 
-std::string symmetryText(const sessions::Symmetries& symmetries) {
-  if (symmetries.empty()) return "";
-  return ", symmetries: " + std::to_string(symmetries.discrete.size()) + " discrete, " +
-         std::to_string(symmetries.continuous.size()) + " continuous";
-}
-
 void describeDataset(const sessions::Dataset& dataset) {
   line(countText(std::ssize(dataset.cases), "case") + ", " +
        countText(std::ssize(dataset.stations), "station") + ", " +
@@ -95,7 +89,9 @@ void describeDataset(const sessions::Dataset& dataset) {
          (station.feature_size_m
               ? ", feature size " + fixedText(1e3 * *station.feature_size_m, 3) + " mm"
               : "") +
-         symmetryText(station.symmetries));
+         (station.symmetries.empty()
+              ? ""
+              : ", symmetries: " + sessions::symmetriesText(station.symmetries)));
     for (const sessions::PartSource& part : station.parts) line("  part " + partText(part));
   }
   for (const auto& [id, camera] : dataset.cameras) {

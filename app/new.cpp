@@ -36,6 +36,7 @@ struct NewArguments : CaseArguments {
     addTruthTo(command);
     addEndEffectorTo(command);
     addRequirementTo(command);
+    addSymmetryTo(command);
     command.add_option("--id", id, "Name of the case (default: the image's)");
     addOption(command, "--mesh-scale-sigma", "S", mesh_scale_sigma,
               "One sigma of the mesh's scale, relative (default: 0.0002)")
@@ -44,7 +45,7 @@ struct NewArguments : CaseArguments {
     for (const char* name :
          {"--camera", "--frames", "--mesh", "--mesh-unit", "--seed", "--truth", "--ignore", "--id",
           "--bit-depth", "--levels", "--bayer", "--feature-size", "--mesh-scale-sigma",
-          "--end-effector", "--requirement"})
+          "--end-effector", "--requirement", "--symmetry"})
       command.get_option(name)->needs(from_image);
     addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
     dataset.addTo(command);

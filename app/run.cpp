@@ -22,7 +22,7 @@ struct RunArguments {
   std::string session;
   std::vector<std::string> cases;
   std::string again;
-  CaseArguments stated;  ///< of it --end-effector, --requirement and --frames
+  CaseArguments stated;  ///< of it --end-effector, --requirement, --symmetry and --frames
   bool recover = false;
   bool views = false;
 
@@ -40,8 +40,9 @@ struct RunArguments {
         ->excludes("--again");
     stated.addEndEffectorTo(command);
     stated.addRequirementTo(command);
+    stated.addSymmetryTo(command);
     stated.frames.addTo(command);
-    for (const char* name : {"--end-effector", "--requirement", "--frames"})
+    for (const char* name : {"--end-effector", "--requirement", "--symmetry", "--frames"})
       command.get_option(name)->excludes("--again");
     addRecover(command, recover);
   }
@@ -110,11 +111,12 @@ void takeStated(sessions::SessionDocument& document, const std::vector<std::stri
                 const CaseArguments& arguments) {
   const sessions::CaseFiles files = arguments.files();
   const sessions::StatedInputs stated{files.camera_from_end_effector, files.requirement,
+                                      arguments.statedSymmetries(),
                                       sessions::readFrameTransforms(arguments.frames.files)};
   if (stated.empty()) return;
   sessions::Session next = document.session();
   for (const std::string& id : case_ids) next = sessions::withStated(next, id, stated);
-  document.apply(next, "State end effector, requirement, frames");
+  document.apply(next, "State end effector, requirement, symmetries, frames");
 }
 
 /// Runs the cases in their order, until a signal, and saves the session with the runs that ended.

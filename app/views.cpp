@@ -10,6 +10,7 @@
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_writer.h"
 #include "sessions/run/runner.h"
+#include "sessions/session/pose_comparer.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/session/views_run.h"
 #include "sessions/text/text_table.h"
@@ -40,7 +41,8 @@ struct ViewsArguments {
 /// One rig, solved from the seed of its first case.
 struct RigRun {
   std::string rig;
-  std::vector<const sessions::Case*> cases;  ///< of the dataset, in its order
+  std::vector<const sessions::Case*> cases;       ///< of the dataset, in its order
+  std::vector<sessions::PoseComparer> comparers;  ///< of the cases
   sessions::JointResult joint;
   double seconds = 0.0;
 
@@ -49,9 +51,8 @@ struct RigRun {
   std::optional<sessions::PoseError> errorOf(std::size_t view) const {
     const sessions::Case& dataset_case = *cases[view];
     if (!converged() || !dataset_case.truth_camera_from_station) return std::nullopt;
-    return sessions::poseError(*dataset_case.truth_camera_from_station,
-                               joint.result.views[view].camera_from_station,
-                               dataset_case.camera_from_end_effector);
+    return comparers[view].difference(*dataset_case.truth_camera_from_station,
+                                      joint.result.views[view].camera_from_station);
   }
 };
 
@@ -81,8 +82,10 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
   const std::string alone = ids.size() > 1 ? sessions::whyAlone(session, ids.front()) : "";
   if (!alone.empty()) throw sessions::InputError(dataset.file, place, alone);
   const sessions::SessionCase& first = *session.cases.front();
-  const auto loaded =
-      sessions::loadViews(sessions::loadCase(first), sessions::otherViews(session, ids.front()));
+  const auto first_loaded = sessions::loadCase(first);
+  for (const auto& session_case : session.cases)
+    run.comparers.emplace_back(*session_case, first_loaded->scene.view());
+  const auto loaded = sessions::loadViews(first_loaded, sessions::otherViews(session, ids.front()));
   if (options.templates.feature_size_m == 0.0)
     options.templates.feature_size_m = first.feature_size_m.value_or(0.0);
   sessions::Runner runner(loaded->problem(), options, ids,

@@ -65,7 +65,8 @@ constexpr CheckName kCompeting{"convergence_competing", "Best competing pose"};
 std::string foundText(const ConvergenceResult& convergence) {
   const auto elsewhere = std::ranges::count(convergence.competing, false, &ConvergedPose::mirrored);
   return "Of " + std::to_string(convergence.seeds) + " other seeds " +
-         std::to_string(convergence.returned) + " returned to this pose and " +
+         std::to_string(convergence.returned) + " returned to this pose " +
+         (convergence.symmetric ? "or one that differs by a declared symmetry, and " : "and ") +
          std::to_string(elsewhere) + " converged elsewhere.";
 }
 
@@ -115,6 +116,7 @@ ConvergenceResult convergenceTest(const ReviewSubject& subject, int seeds,
   ConvergenceResult result;
   if (subject.loaded == nullptr || seeds <= 0) return result;
   const RunPlan plan = planFor(subject);
+  result.symmetric = !subject.loaded->source.symmetries.empty();
   result.coverage = coverageOfPose(*subject.loaded, subject.camera_from_station).value();
   // Mirror images come first: also after a stop, the result depends on its number of seeds alone.
   for (int axis = 0; axis < 3 && !stop.stop_requested(); ++axis)

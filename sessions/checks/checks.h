@@ -42,6 +42,7 @@ struct ConvergenceResult {
   int returned = 0;       ///< converged to the pose in question, within the requirement
   double coverage = 0.0;  ///< of the pose in question
   std::vector<ConvergedPose> competing;  ///< other poses; of mirror images all poses
+  bool symmetric = false;  ///< poses that differ by a declared symmetry have returned, too
 };
 
 /// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty, and of
@@ -121,9 +122,11 @@ struct CameraFit {
 /// The sigmas account for common errors of edges (a bevel, a shadow): square tiles of the image
 /// count as one observation each. What the edges of a whole image share, as by light from one side,
 /// is not in them: rendered stations are 1.4 to 2.2 sigma off (`resources/evidence/trust.md`).
-/// Empty with fewer than 60 edges found, or when these do not determine all nine unknowns.
+/// Empty with fewer than 60 edges found, or when these do not determine all nine unknowns; the
+/// pose keeps its place along `symmetric` motions.
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
-                                   const Pose& camera_from_station);
+                                   const Pose& camera_from_station,
+                                   const PoseMotions& symmetric = PoseMotions(6, 0));
 
 /// Whether focal length and principal point are within the limits, by their fitted changes and the
 /// case's sigmas of the calibration. An empty fit fails each parameter whose sigma is not stated.

@@ -66,7 +66,8 @@ Check evidenceCheck(const Share& evidence, const CheckLimits& limits) {
                        "Other poses explain the image about as well: check the overlay.");
 }
 
-Check fallOffCheck(double seen, const std::vector<FallOff>& fall_off, const CheckLimits& limits) {
+Check fallOffCheck(double seen, const std::vector<FallOff>& fall_off, bool symmetric,
+                   const CheckLimits& limits) {
   const auto least = std::ranges::max_element(fall_off, {}, &FallOff::coverage);
   if (least == fall_off.end() || seen <= 0.0)
     return notAskedCheck(kFallOff, "No predicted edge is seen.");
@@ -75,7 +76,8 @@ Check fallOffCheck(double seen, const std::vector<FallOff>& fall_off, const Chec
                        "Displaced by " + sentenceNumber(kDisplaced_px) +
                            " px in the image, the pose loses at least " +
                            sentenceNumber(100.0 * fall) + " % of the edges seen, least when " +
-                           least->direction + ".",
+                           least->direction + "." +
+                           (symmetric ? " Turns about axes of symmetry are left out." : ""),
                        "The image hardly constrains the pose in this direction: use annotations or "
                        "a second camera.");
 }
@@ -225,11 +227,25 @@ std::optional<Matrix9d> inverseOf(const Matrix9d& information) {
          inverse_scale.asDiagonal();
 }
 
-std::optional<Solved> solveRobustly(const std::vector<Row>& rows) {
+/// Information that fixes the pose along motions which the edges cannot show, as much as all rows
+/// together give to a motion.
+Matrix9d fixing(const PoseMotions& symmetric, const std::vector<Row>& rows) {
+  Matrix6d of_rows = Matrix6d::Zero();
+  for (const Row& row : rows) of_rows.diagonal() += row.by.head<6>().cwiseAbs2();
+  Matrix9d information = Matrix9d::Zero();
+  for (const auto& motion : symmetric.colwise()) {
+    const Vector6d pull = of_rows * motion;
+    const double whole = motion.dot(pull);
+    if (whole > 0.0) information.topLeftCorner<6, 6>() += pull * pull.transpose() / whole;
+  }
+  return information;
+}
+
+std::optional<Solved> solveRobustly(const std::vector<Row>& rows, const Matrix9d& fixed) {
   Solved solved;
   for (int round = 0; round < kRounds; ++round) {
     solved.cut_px = kTukey * scaleOf(rows, solved.solution);
-    Matrix9d information = Matrix9d::Zero();
+    Matrix9d information = fixed;
     Vector9d right = Vector9d::Zero();
     for (const Row& row : rows) {
       const double weight = tukeyWeight(solved.residual_px(row), solved.cut_px);
@@ -249,13 +265,14 @@ std::optional<Solved> solveRobustly(const std::vector<Row>& rows) {
 /// derivative of the influence: with its weights in their place, sigmas of Gaussian errors are 1.5
 /// times too small. Where the derivative leaves a direction open the weights serve: sigmas are
 /// large then, and rather too small.
-Matrix9d clusteredCovariance(const std::vector<Row>& rows, const Solved& solved) {
+Matrix9d clusteredCovariance(const std::vector<Row>& rows, const Solved& solved,
+                             const Matrix9d& fixed) {
   struct Tile {
     Vector9d score = Vector9d::Zero();
     Matrix9d slope = Matrix9d::Zero();
   };
   std::map<std::pair<int, int>, Tile> tiles;
-  Matrix9d slope = Matrix9d::Zero();
+  Matrix9d slope = fixed;
   for (const Row& row : rows) {
     const double residual_px = solved.residual_px(row);
     const Matrix9d of_row = tukeySlope(residual_px, solved.cut_px) * row.by * row.by.transpose();
@@ -322,24 +339,28 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   checks.push_back(coverageCheck(seen, limits));
   checks.push_back(clutterCheck(clutterOf(image, edges, looked), limits));
   checks.push_back(evidenceCheck(evidenceOf(image, looked), limits));
+  const PoseMotions symmetric =
+      symmetricMotions(subject.camera_from_station, loaded.source.symmetries);
   checks.push_back(
-      fallOffCheck(seen, fallOffOf(image, places, camera, subject.camera_from_station), limits));
+      fallOffCheck(seen, fallOffOf(image, places, camera, subject.camera_from_station, symmetric),
+                   symmetric.cols() > 0, limits));
   checks.push_back(widthCheck(loaded, places, limits));
   if (!asksForMetric(subject.requirement))
     return addNotAsked({kFocal, kCentre},
                        "The requirement is in pixels, where a wrong camera has little effect.",
                        checks);
-  addCameraChecks(fitCamera(looked, camera, subject.camera_from_station), loaded.source, limits,
-                  checks);
+  addCameraChecks(fitCamera(looked, camera, subject.camera_from_station, symmetric), loaded.source,
+                  limits, checks);
 }
 
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
-                                   const Pose& camera_from_station) {
+                                   const Pose& camera_from_station, const PoseMotions& symmetric) {
   const std::vector<Row> rows = rowsOf(looked, camera, camera_from_station);
   if (rows.size() < kLeastFound) return {};
-  const auto solved = solveRobustly(rows);
+  const Matrix9d fixed = fixing(symmetric, rows);
+  const auto solved = solveRobustly(rows, fixed);
   if (!solved) return {};
-  const Matrix9d covariance = clusteredCovariance(rows, *solved);
+  const Matrix9d covariance = clusteredCovariance(rows, *solved, fixed);
   CameraFit fit;
   fit.focal_px = solved->solution(6);
   fit.focal_sigma_px = std::sqrt(covariance(6, 6));

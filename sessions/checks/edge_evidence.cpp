@@ -99,6 +99,8 @@ constexpr std::array<const char*, 6> kAxisNames = {
     "moved along the image's y axis",  "moved along the view axis"};
 /// Keeps ways that hardly move the image at all out of the search for the least determined one.
 constexpr double kLeastMotion = 1e-3;
+/// Of a displacement along an axis: less without symmetric motions does not belong to the axis.
+constexpr double kLeastOfWay = 0.3;
 
 /// How the image follows perturbations about the station's middle.
 struct Motion {
@@ -142,11 +144,28 @@ Motion motionOf(const std::vector<EdgePlace>& places, const Camera& camera,
   return motion;
 }
 
+/// Small motions about the camera as such about a point of the camera frame.
+PoseMotions aboutMiddle(PoseMotions motions, const Eigen::Vector3d& middle_m) {
+  for (auto motion : motions.colwise()) {
+    const Eigen::Vector3d turn = motion.head<3>();
+    motion.tail<3>() += turn.cross(middle_m);
+  }
+  return motions;
+}
+
+/// Across, with `motions` as if they were seen better than any other.
+Matrix6d acrossWithout(const Motion& motion, const Matrix6d& determined) {
+  constexpr double kWellSeen = 1e6;
+  const Matrix6d along = Matrix6d::Identity() - determined;
+  return determined.transpose() * motion.across * determined +
+         kWellSeen * along.transpose() * motion.image * along;
+}
+
 /// The way in which the image moves most along the edges and least across them.
-Vector6d leastDetermined(const Motion& motion) {
+Vector6d leastDetermined(const Motion& motion, const Matrix6d& determined) {
   Matrix6d image = motion.image;
   image.diagonal() *= 1.0 + kLeastMotion;
-  const auto eigen = generalizedEigen<6>(motion.across, image);
+  const auto eigen = generalizedEigen<6>(acrossWithout(motion, determined), image);
   return eigen ? Vector6d(eigen->vectors.col(0)) : Vector6d(Vector6d::Unit(2));
 }
 
@@ -345,14 +364,18 @@ cv::Rect regionOf(const PredictedEdges& edges) {
 }
 
 std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
-                               const Camera& camera, const Pose& camera_from_station) {
+                               const Camera& camera, const Pose& camera_from_station,
+                               const PoseMotions& symmetric) {
   std::vector<FallOff> all;
   if (places.empty()) return all;
   const Eigen::Vector3d middle_m = middleOf(places, camera_from_station);
   const Motion motion = motionOf(places, camera, camera_from_station, middle_m);
-  const auto add = [&](const Vector6d& way, std::string name) {
+  const Matrix6d determined = projectionWithout(aboutMiddle(symmetric, middle_m), motion.image);
+  const auto add = [&](const Vector6d& whole, std::string name) {
+    const Vector6d way = determined * whole;
     const double moves_px = std::sqrt(way.dot(motion.image * way));
-    if (!(moves_px > 0.0)) return;
+    const double whole_px = std::sqrt(whole.dot(motion.image * whole));
+    if (!(moves_px > kLeastOfWay * whole_px)) return;
     double coverage = 0.0;
     for (const double sense : {-1.0, 1.0}) {
       const Vector6d xi = (sense * kDisplaced_px / moves_px) * way;
@@ -364,7 +387,7 @@ std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePl
   };
   for (int axis = 0; axis < 6; ++axis)
     add(Vector6d::Unit(axis), kAxisNames[static_cast<std::size_t>(axis)]);
-  const Vector6d least = leastDetermined(motion);
+  const Vector6d least = leastDetermined(motion, determined);
   add(least, mainlyText(least, motion));
   return all;
 }

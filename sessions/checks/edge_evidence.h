@@ -14,6 +14,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
+#include "sessions/evaluation/model_error.h"
 #include "sessions/session/case_run.h"
 #include "sessions/trace/trace.h"
 
@@ -141,8 +142,9 @@ Share evidenceOf(const ImageEdges& image, const std::vector<LookedPlace>& looked
 cv::Rect regionOf(const PredictedEdges& edges);
 
 /// Coverage with the pose displaced along the six axes at the station and in the least determined
-/// direction.
+/// direction, without the part along `symmetric` motions: an axis of little else is left out.
 std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
-                               const Camera& camera, const Pose& camera_from_station);
+                               const Camera& camera, const Pose& camera_from_station,
+                               const PoseMotions& symmetric = PoseMotions(6, 0));
 
 }  // namespace boresight::sessions

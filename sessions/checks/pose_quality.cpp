@@ -36,10 +36,9 @@ PrecisionFigure imageFigure(const ReviewSubject& subject, double sigmas, bool kn
   PrecisionFigure figure{
       kProjection, "in the image", "px", subject.requirement.projection_px, {}, {}, {}};
   if (!figure.required || !known || subject.loaded == nullptr) return figure;
-  const auto vertices = matchedVertices(subject.loaded->scene.view());
+  const PoseComparer comparer = subject.comparer();
   const auto sigma_px = [&](const Matrix6d& covariance) -> std::optional<double> {
-    const auto one_sigma_px = projectionSigma(subject.loaded->source.camera,
-                                              subject.camera_from_station, vertices, covariance);
+    const auto one_sigma_px = comparer.projectionSigma_px(subject.camera_from_station, covariance);
     return one_sigma_px ? std::optional(sigmas * *one_sigma_px) : std::nullopt;
   };
   figure.found = sigma_px(subject.covariance.total());
@@ -91,8 +90,8 @@ PoseQuality poseQuality(const ReviewSubject& subject, double sigmas) {
   const std::string place = std::string(" at the ") + judgedPlace(end_effector);
   std::optional<PoseSigma> by_image, total;
   if (subject.covariance.known()) {
-    by_image = poseSigma(subject.covariance.picture, end_effector);
-    total = poseSigma(subject.covariance.total(), end_effector);
+    by_image = poseSigma(subject.determined(subject.covariance.picture), end_effector);
+    total = poseSigma(subject.determined(subject.covariance.total()), end_effector);
   }
   const bool known = by_image && total;
   const auto figure = [&](const CheckName& check, const char* where, const char* unit,

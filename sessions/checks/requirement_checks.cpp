@@ -11,6 +11,7 @@
 #include "sessions/decision/check.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/files/least_known.h"
+#include "sessions/session/pose_comparer.h"
 #include "sessions/session/stated_inputs.h"
 
 namespace boresight::sessions {
@@ -24,10 +25,13 @@ constexpr CheckName kScale{"mesh_scale", "Mesh scale estimated by the rig"};
 /// A truth as near as this to a pose that was given was taken from it.
 constexpr double kSamePose = 1e-6;  ///< rad, m
 
+constexpr const char* kBySymmetry = " Poses that differ by a declared symmetry count as the same.";
+
 /// How far two poses are apart: in words, and as the largest part of what is allowed.
 struct Distance {
   double of_allowed = 0.0;            ///< 1: as far as allowed
   bool covariance_dominates = false;  ///< it allows more than the requirement does
+  bool by_symmetry = false;           ///< to an equivalent of the other pose
   std::string text;
 };
 
@@ -35,10 +39,13 @@ struct Distance {
 Distance distanceTo(const Pose& other, const ReviewSubject& subject, const Matrix6d& apart,
                     double sigmas) {
   const Requirement& required = subject.requirement;
-  const std::optional<Pose> end_effector = subject.endEffector();
-  const PoseError error = poseError(other, subject.camera_from_station, end_effector);
-  const std::optional<PoseSigma> sigma = poseSigma(apart, end_effector);
+  const PoseComparer comparer = subject.comparer();
+  const std::optional<Pose>& end_effector = comparer.endEffector();
+  const Pose& pose = subject.camera_from_station;
+  const PoseError error = comparer.difference(other, pose);
+  const std::optional<PoseSigma> sigma = poseSigma(comparer.determined(apart, pose), end_effector);
   Distance distance;
+  distance.by_symmetry = comparer.equivalent(other, pose) != other;
   const auto add = [&](double value, double limit, double known_to, const char* words) {
     const double allowed = std::hypot(limit, known_to);
     distance.of_allowed = std::max(distance.of_allowed, allowed > 0.0 ? value / allowed : 1e6);
@@ -56,13 +63,8 @@ Distance distanceTo(const Pose& other, const ReviewSubject& subject, const Matri
   addIfLimited(rotationLimit_mrad(required), error.rotation_mrad, &PoseSigma::out_of_plane_mrad,
                "mrad between the view axes");
   if (!required.projection_px) return distance;
-  std::optional<double> error_px, sigma_px;
-  if (subject.loaded != nullptr) {
-    const Camera& camera = subject.loaded->source.camera;
-    const auto vertices = matchedVertices(subject.loaded->scene.view());
-    error_px = projectionError(camera, other, subject.camera_from_station, vertices);
-    sigma_px = projectionSigma(camera, subject.camera_from_station, vertices, apart);
-  }
+  const std::optional<double> error_px = comparer.projection_px(other, pose);
+  const std::optional<double> sigma_px = comparer.projectionSigma_px(pose, apart);
   constexpr double kHuge_px = 1e6;
   add(error_px.value_or(kHuge_px), *required.projection_px, sigmas * sigma_px.value_or(0.0),
       "px in the image");
@@ -74,6 +76,7 @@ Check agreementCheck(const CheckName& name, const ReviewSubject& subject, const 
   const Distance distance = distanceTo(other.camera_from_station, subject, apart, limits.sigmas);
   if (distance.text.empty()) return notAskedCheck(name, "The requirement has no limits.");
   std::string found = "The pose and " + other.from + " differ by " + distance.text + ".";
+  if (distance.by_symmetry) found += kBySymmetry;
   if (distance.covariance_dominates)
     found += " Their covariances exceed the requirement, so that this check is weak.";
   return measuredCheck(name, "%", 100.0 * distance.of_allowed, limits.agreement_percent,
@@ -175,7 +178,7 @@ constexpr const char* kInputsRemedy =
 /// Names the motion that the image leaves undetermined, if one is clearly the least certain.
 std::string imageRemedy(const ReviewSubject& subject) {
   const std::string least_known =
-      leastKnownText(subject.covariance.picture, subject.camera_from_station);
+      leastKnownText(subject.determined(subject.covariance.picture), subject.camera_from_station);
   return least_known.empty() ? kPictureRemedy
                              : "Least known: " + least_known + ". " + kPictureRemedy;
 }

@@ -83,18 +83,18 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
     throw InputError(known->file,
                      "it differs from the session's file: accept it as it is now, or relink it");
   const LocalizationProblem given = loaded.problem();
-  return compareRecords(parseRecord(known->file, bytes), recordOf(run, &given));
+  return compareRecords(parseRecord(known->file, bytes), recordOf(run, &given),
+                        comparisonLimits(loaded));
 }
 
 }  // namespace
 
 std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station) {
-  const SessionCase& session_case = loaded.source;
-  if (judgingTruth(session_case) == nullptr) return std::nullopt;
-  const Pose& truth = *judgingTruth(session_case);
-  PoseError error = poseError(truth, camera_from_station, session_case.camera_from_end_effector);
-  error.projection_px = projectionError(session_case.camera, truth, camera_from_station,
-                                        matchedVertices(loaded.scene.view()));
+  const Pose* truth = judgingTruth(loaded.source);
+  if (truth == nullptr) return std::nullopt;
+  const PoseComparer comparer(loaded);
+  PoseError error = comparer.difference(*truth, camera_from_station);
+  error.projection_px = comparer.projection_px(*truth, camera_from_station);
   return error;
 }
 

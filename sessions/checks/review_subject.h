@@ -12,6 +12,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/pose_comparer.h"
 #include "sessions/session/session.h"
 #include "sessions/trace/trace.h"
 
@@ -42,6 +43,12 @@ struct ReviewSubject : JudgedPose {
   /// The case's camera_from_end_effector, if it is known.
   std::optional<Pose> endEffector() const {
     return loaded ? loaded->source.camera_from_end_effector : std::nullopt;
+  }
+  /// Compares other poses with this one.
+  PoseComparer comparer() const { return loaded ? PoseComparer(*loaded) : PoseComparer(); }
+  /// A covariance of the pose as it is judged: without turns about axes of symmetry.
+  Matrix6d determined(const Matrix6d& of_pose) const {
+    return comparer().determined(of_pose, camera_from_station);
   }
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/model_error.h"
-#include "sessions/text/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +8,10 @@
 #include <utility>
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include "core/base/math.h"
+#include "sessions/text/units.h"
 
 namespace boresight::sessions {
 namespace {
@@ -194,15 +195,51 @@ double meanNearestDistance_m(const Pose& camera_from_station_true,
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
+Pose nearestEquivalent(const Pose& camera_from_station, const Pose& other_camera_from_station,
+                       const ModelView& model) {
+  if (!hasSymmetries(model.symmetries) || camera_from_station == other_camera_from_station)
+    return camera_from_station;
+  return leastSurfaceDistance(camera_from_station, other_camera_from_station, model)
+      .camera_from_station;
+}
+
+PoseMotions symmetricMotions(const Pose& camera_from_station, const Symmetries& symmetries) {
+  PoseMotions motions(6, std::ssize(symmetries.continuous));
+  Eigen::Index column = 0;
+  for (const AxisSymmetry& symmetry : symmetries.continuous) {
+    const Eigen::Vector3d axis = camera_from_station.rotation * symmetry.axis;
+    motions.col(column++) << axis, (camera_from_station * symmetry.point_m).cross(axis);
+  }
+  return motions;
+}
+
+Matrix6d projectionWithout(const PoseMotions& motions, const Matrix6d& metric) {
+  if (motions.cols() == 0) return Matrix6d::Identity();
+  const Eigen::MatrixXd of_motions = motions.transpose() * metric * motions;
+  // An axis may be declared twice.
+  const Eigen::MatrixXd inverse = of_motions.completeOrthogonalDecomposition().pseudoInverse();
+  return Matrix6d::Identity() - motions * inverse * motions.transpose() * metric;
+}
+
+Matrix6d determinedCovariance(const Matrix6d& covariance, const Pose& camera_from_station,
+                              const ModelView& model) {
+  if (model.symmetries == nullptr || model.symmetries->continuous.empty()) return covariance;
+  Matrix6d metric = Matrix6d::Zero();
+  for (const Eigen::Vector3d& point : placed(camera_from_station, model)) {
+    const Eigen::Matrix<double, 3, 6> moves = displacementOf(point);
+    metric += moves.transpose() * moves;
+  }
+  const Matrix6d determined =
+      projectionWithout(symmetricMotions(camera_from_station, *model.symmetries), metric);
+  return determined * covariance * determined.transpose();
+}
+
 PoseError errorToTruth(const Camera& camera, const Pose& camera_from_station_true,
                        const Pose& camera_from_station_estimated,
                        const std::optional<Pose>& camera_from_end_effector,
                        const ModelView& model) {
   const Pose truth =
-      hasSymmetries(model.symmetries)
-          ? leastSurfaceDistance(camera_from_station_true, camera_from_station_estimated, model)
-                .camera_from_station
-          : camera_from_station_true;
+      nearestEquivalent(camera_from_station_true, camera_from_station_estimated, model);
   PoseError error = poseError(truth, camera_from_station_estimated, camera_from_end_effector);
   error.projection_px =
       projectionError(camera, truth, camera_from_station_estimated, model.vertices_in_station_m);

@@ -12,7 +12,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/datasets/symmetries.h"
 
 namespace boresight::sessions {
 
@@ -43,6 +43,24 @@ double meanDistance_m(const Pose& camera_from_station_true,
 /// Insensitive to symmetries by itself.
 double meanNearestDistance_m(const Pose& camera_from_station_true,
                              const Pose& camera_from_station_estimated, const ModelView& model);
+
+/// The pose that shows the station as `camera_from_station` does and is nearest to another: the
+/// equivalent with the smallest surface distance. The pose itself where it equals the other one, or
+/// there are no symmetries.
+Pose nearestEquivalent(const Pose& camera_from_station, const Pose& other_camera_from_station,
+                       const ModelView& model);
+
+/// Small motions of a pose, a column each: left perturbations in the camera frame.
+using PoseMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+/// Those that do not change the appearance of the station: turns about its axes of symmetry.
+PoseMotions symmetricMotions(const Pose& camera_from_station, const Symmetries& symmetries);
+/// Takes the part along `motions` out of a perturbation; the rest is orthogonal to them in the
+/// metric, which is positive semidefinite.
+Matrix6d projectionWithout(const PoseMotions& motions, const Matrix6d& metric);
+/// A pose's covariance without turns about axes of symmetry, which no comparison of poses contains:
+/// of the motion that moves the vertices least for each turn. Unchanged without such axes.
+Matrix6d determinedCovariance(const Matrix6d& covariance, const Pose& camera_from_station,
+                              const ModelView& model);
 
 /// The judged errors of an estimate: poseError and projectionError against the true pose's
 /// symmetric equivalent with the smallest surface distance.

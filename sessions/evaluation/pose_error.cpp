@@ -22,16 +22,16 @@ double twistAboutZ_rad(const Eigen::Quaterniond& rotation) {
   return twist_rad <= -kPi ? twist_rad + 2.0 * kPi : twist_rad;
 }
 
-/// How a point of the camera frame moves: d = r x p + t.
-Eigen::Matrix<double, 3, 6> displacementOf(const Eigen::Vector3d& p) {
+}  // namespace
+
+Eigen::Matrix<double, 3, 6> displacementOf(const Eigen::Vector3d& point_in_camera_m) {
+  const Eigen::Vector3d& p = point_in_camera_m;
   Eigen::Matrix<double, 3, 6> displacement;
   displacement << 0.0, p.z(), -p.y(), 1.0, 0.0, 0.0,  //
       -p.z(), 0.0, p.x(), 0.0, 1.0, 0.0,              //
       p.y(), -p.x(), 0.0, 0.0, 0.0, 1.0;
   return displacement;
 }
-
-}  // namespace
 
 PoseError poseError(const Pose& camera_from_station_true, const Pose& camera_from_station_estimated,
                     const std::optional<Pose>& camera_from_end_effector) {

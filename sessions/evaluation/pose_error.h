@@ -37,6 +37,9 @@ struct PoseError {
 PoseError poseError(const Pose& camera_from_station_true, const Pose& camera_from_station_estimated,
                     const std::optional<Pose>& camera_from_end_effector);
 
+/// How a point of the camera frame moves with a small perturbation: d = r x p + t.
+Eigen::Matrix<double, 3, 6> displacementOf(const Eigen::Vector3d& point_in_camera_m);
+
 /// Mean over the vertices of the distance between their projections under estimate and truth, px.
 /// Vertices that the camera cannot project under the truth do not count; one that only the estimate
 /// puts behind the camera or outside its field counts as a whole image diagonal. Empty when no

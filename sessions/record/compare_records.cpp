@@ -235,6 +235,11 @@ Vector6d exactPerturbation(const Pose& from, const Pose& to) {
   return perturbationBetween(from, to);
 }
 
+/// exactPerturbation to the equivalent of the other pose.
+Vector6d apartBy(const Pose& pose, const Pose& other, const ComparisonLimits& limits) {
+  return exactPerturbation(pose, limits.equivalent ? limits.equivalent(other, pose) : other);
+}
+
 /// `comparison` is of an iteration, or of two runs.
 template <class Comparison>
 void setDistance(const Vector6d& xi, Comparison& comparison) {
@@ -261,19 +266,20 @@ void compareIterations(const OnboardRecord& record, const OnboardRecord& other,
     compared.index = trace.index;
     compareTemplates(record.iterations[i], other.iterations[i], limits, compared);
     setDistance(
-        exactPerturbation(trace.camera_from_station, other.iterations[i].trace.camera_from_station),
+        apartBy(trace.camera_from_station, other.iterations[i].trace.camera_from_station, limits),
         compared);
   }
 }
 
 void compareEnds(const OnboardRecord& record, const OnboardRecord& other,
-                 RecordComparison& comparison) {
+                 const ComparisonLimits& limits, RecordComparison& comparison) {
   comparison.inputs_compared =
       record.inputs && other.inputs && !record.options.empty() && !other.options.empty();
   comparison.ends_compared = record.end && other.end;
   if (!comparison.ends_compared) return;
   const Vector6d xi =
-      exactPerturbation(record.end->camera_from_station, other.end->camera_from_station);
+      apartBy(record.end->camera_from_station, other.end->camera_from_station, limits);
+  comparison.by_symmetry = static_cast<bool>(limits.equivalent);
   setDistance(xi, comparison);
   if (record.end->status == LocalizationStatus::kConverged &&
       other.end->status == LocalizationStatus::kConverged)
@@ -346,7 +352,7 @@ RecordComparison compareRecords(const OnboardRecord& record, const OnboardRecord
   for (const std::string& text : other.missing) comparison.missing.push_back("second: " + text);
   comparison.first = Walk(record, other).all();
   compareIterations(record, other, limits, comparison);
-  compareEnds(record, other, comparison);
+  compareEnds(record, other, limits, comparison);
   holdToLimits(record, other, limits, comparison);
   if (comparison.first && comparison.first->part == kPixels)
     holdToSameInputs(record, other, comparison);
@@ -392,6 +398,7 @@ std::string comparisonText(const RecordComparison& comparison) {
   text << "final poses: " << comparison.translation_mm << " mm and " << comparison.rotation_mrad
        << " mrad apart";
   if (comparison.pose_sigmas) text << ", " << *comparison.pose_sigmas << " sigmas";
+  if (comparison.by_symmetry) text << ", by the declared symmetries";
   text << "\n";
   return text.str();
 }

@@ -2,6 +2,7 @@
 // Whether two runs were the same: one on board and one on the ground, or two of either.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ struct ComparisonLimits {
   double found_share = 0.8;   ///< of the templates that both searched at one place
   double inlier_share = 0.7;  ///< of the inliers of either run among these, share common to both
   double pose_sigmas = 3.0;   ///< distance of the final poses, in sigmas of the first pose
+  /// The pose that counts as the same as `pose`, by a symmetry of the station, and is nearest to
+  /// another; empty: no symmetries.
+  std::function<Pose(const Pose& pose, const Pose& nearest_to)> equivalent = {};
 };
 
 /// One iteration of both runs. Templates are compared where both took one at the same pixel.
@@ -73,6 +77,7 @@ struct RecordComparison {
   bool ends_compared = false;                   ///< both have status and final pose
   double translation_mm = 0.0;                  ///< between the final poses, if compared
   double rotation_mrad = 0.0;
+  bool by_symmetry = false;           ///< the final poses are compared by a symmetry of the station
   std::optional<double> pose_sigmas;  ///< empty when one has no final pose or no covariance
   std::vector<std::string> beyond;    ///< which limits are exceeded, sentences
   std::vector<std::string> missing;   ///< data that either record lacks

@@ -47,8 +47,9 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
 }
 
 RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,
-                                   const LocalizationProblem& ground) {
-  return compareRecords(review.record, recordOf(run, &ground));
+                                   const LocalizationProblem& ground,
+                                   const ComparisonLimits& limits) {
+  return compareRecords(review.record, recordOf(run, &ground), limits);
 }
 
 std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord& record) {

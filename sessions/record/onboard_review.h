@@ -32,7 +32,8 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
 
 /// Compares the onboard run with a ground run on the input `ground`.
 RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,
-                                   const LocalizationProblem& ground);
+                                   const LocalizationProblem& ground,
+                                   const ComparisonLimits& limits = {});
 
 /// Content of the record as pairs of label and value: how the run ended, iterations, pose, one
 /// sigma, digest, and whether it is whole.

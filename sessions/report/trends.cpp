@@ -40,8 +40,13 @@ TrendPoint pointOf(const std::filesystem::path& file, const Session& session,
   const Matrix6d covariance =
       poseCovariance(session_case, loaded->scene.view(), run.camera_from_station, run.covariance)
           .total();
+  // Without turns by symmetries, which no command corrects.
+  const PoseComparer comparer(*loaded);
+  const Pose pose =
+      comparer.equivalent(run.camera_from_station, session_case.camera_from_station_seed);
   const Correction correction =
-      correctionsOf(withEndEffector(session_case), run.camera_from_station, covariance).front();
+      correctionsOf(withEndEffector(session_case), pose, comparer.determined(covariance, pose))
+          .front();
   const Vector6d sigma = sigmasOf(correction.covariance);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto index = static_cast<Eigen::Index>(axis);

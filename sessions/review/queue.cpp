@@ -50,9 +50,10 @@ void takeRun(const ReviewSubject& subject, QueueRow& row) {
   row.iterations = static_cast<int>(run.iterations.size());
   row.inliers = lastInliers(run);
   row.opens_at = iterationToOpen(run);
-  if (run.converged())
-    row.from_seed =
-        seedDistance(run.camera_from_station_seed, run.camera_from_station, run.uncertainty);
+  if (!run.converged()) return;
+  const Pose& seed = run.camera_from_station_seed;
+  row.from_seed = seedDistance(seed, subject.comparer().equivalent(run.camera_from_station, seed),
+                               run.uncertainty);
 }
 
 std::shared_ptr<const ReviewSubject> withoutData(const ReviewSubject& subject) {

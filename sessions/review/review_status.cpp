@@ -108,7 +108,7 @@ const char* inputText(const std::string& name) {
       {"annotations", "the annotations"},
       {"truth", "the truth"},
       {"input_sigmas", "the stated sigmas of mesh and camera"},
-      {"requirement", "the requirement"},
+      {"requirement", "the requirement or the symmetries"},
       {"end_effector", "the end effector"},
       {"rig", "the rig"},
       {"other_runs", "the runs of the rig's other cameras"},

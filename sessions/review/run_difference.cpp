@@ -170,12 +170,10 @@ std::vector<OptionChangeText> optionChanges(const LocalizerOptions& before,
 
 PoseDistance poseDistance(const LoadedCase& loaded, const Pose& camera_from_station,
                           const Pose& other_camera_from_station) {
-  const SessionCase& session_case = loaded.source;
-  const PoseError error = poseError(camera_from_station, other_camera_from_station,
-                                    session_case.camera_from_end_effector);
+  const PoseComparer comparer(loaded);
+  const PoseError error = comparer.difference(camera_from_station, other_camera_from_station);
   return {std::hypot(error.normal_mm, error.lateral_mm), error.geodesic_mrad / kMradPerDegree,
-          projectionError(session_case.camera, camera_from_station, other_camera_from_station,
-                          matchedVertices(loaded.scene.view()))};
+          comparer.projection_px(camera_from_station, other_camera_from_station)};
 }
 
 std::string poseDistanceText(const PoseDistance& distance) {
@@ -251,7 +249,8 @@ RunDifference compareRuns(const Session& session, const std::string& before_dige
   difference.inputs_differ = before.record->inputs_sha256 != after.record->inputs_sha256;
   difference.options = optionChanges(before.subject.run->options, after.subject.run->options);
   difference.checks = changedChecks(before.checks, after.checks);
-  difference.comparison = compareRecords(recordOfRun(before), recordOfRun(after));
+  difference.comparison =
+      compareRecords(recordOfRun(before), recordOfRun(after), comparisonLimits(*loaded));
   judgeChange(difference);
   return difference;
 }

@@ -29,7 +29,7 @@ const std::vector<NamedMembers>& namedMembers() {
       {"image", {"image"}},
       {"frames", {"camera_reference", "station_frame", "truth_frame", "frames"}},
       {"truth", {"truth", "truth_covariance", "truth_source"}},
-      {"requirement", {"requirement"}},
+      {"requirement", {"requirement", "symmetries"}},
       {"end_effector", {"camera_from_end_effector"}},
       {"onboard_record", {"onboard_record"}}};
   return kMembers;

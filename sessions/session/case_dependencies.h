@@ -33,10 +33,10 @@ void forEachFile(Case& session_case, Visit&& visit) {
 
 /// SHA-256 by name of all data of a case that a result, its checks or a commanded correction depend
 /// on: "inputs" (of runs), "image" (file and its conversion), "image_label", "names", "frames",
-/// "truth", "input_sigmas", "requirement", "end_effector", "onboard_record", and "others": every
-/// further member of the case in the session file. Not included: the rig, which is of several
-/// cases, the nudged pose, tags, landmarks, folders of files, and the feature size, which is an
-/// option of runs.
+/// "truth", "input_sigmas", "requirement" (with symmetries), "end_effector",
+/// "onboard_record", and "others": every further member of the case in the session file. Not
+/// included: the rig, which is of several cases, the nudged pose, tags, landmarks, folders of
+/// files, and the feature size, which is an option of runs.
 std::map<std::string, std::string> dependencyDigests(const SessionCase& session_case);
 
 }  // namespace boresight::sessions

@@ -2,6 +2,7 @@
 #include "sessions/session/session_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/files/errors.h"
@@ -28,6 +29,8 @@ constexpr auto kCamera =
     jsonCodec<CameraFile>([](const JsonReader& json) { return readCameraFile(json); });
 constexpr auto kUncertainty = jsonCodec<DeclaredUncertainty>(&readUncertainty);
 constexpr auto kRequirement = jsonCodec<Requirement>(&readRequirement);
+constexpr auto kDirection =
+    jsonCodec<Eigen::Vector3d>([](const JsonReader& json) { return json.vector3(); });
 constexpr auto kCovariance = jsonCodec<Matrix6d>(&readCovariance);
 
 constexpr auto kPixel = jsonCodec<Eigen::Vector2d>([](const JsonReader& json) {
@@ -209,6 +212,21 @@ void fields(Archive& archive, Self& source) {
   archive.optional("run", source.run, kSha256);
 }
 
+template <class Archive, ConstOr<AxisSymmetry> Self>
+void fields(Archive& archive, Self& symmetry) {
+  archive.field("axis", symmetry.axis, kDirection);
+  archive.field("point_m", symmetry.point_m, kDirection);
+  if constexpr (Archive::kReads)
+    if (!(std::abs(symmetry.axis.squaredNorm() - 1.0) <= 1e-9))
+      archive.json().failMember("axis", "is not of unit length");
+}
+
+template <class Archive, ConstOr<Symmetries> Self>
+void fields(Archive& archive, Self& symmetries) {
+  archive.optional("discrete", symmetries.discrete, listOf(kExactPose));
+  archive.optionalList("continuous", symmetries.continuous);
+}
+
 template <class Archive, ConstOr<Rig> Self>
 void fields(Archive& archive, Self& rig) {
   archive.field("id", rig.id, kNonEmptyText);
@@ -237,6 +255,9 @@ void fields(Archive& archive, Self& self) {
   CameraFile camera{self.camera, std::nullopt, self.calibration_sigma, self.camera_covariance};
   archive.field("camera", camera, kCamera);
   archive.list("parts", self.parts);
+  std::optional<Symmetries> symmetries;
+  if (!self.symmetries.empty()) symmetries = self.symmetries;
+  archive.object("symmetries", symmetries);
   archive.optional("feature_size_m", self.feature_size_m, numberIn(1e-6, 100.0));
   archive.optional("mesh_scale_sigma", self.mesh_scale_sigma, numberIn(0.0, kMaxScaleSigma));
   std::optional<Pose> seed;
@@ -260,6 +281,7 @@ void fields(Archive& archive, Self& self) {
   archive.optionalList("frames", self.frames);
   archive.optionalPath("landmarks", self.landmarks, FileUse::kLandmarks);
   if constexpr (Archive::kReads) {
+    self.symmetries = symmetries.value_or(Symmetries());
     self.camera = camera.camera;
     self.calibration_sigma = camera.calibration_sigma;
     self.camera_covariance = camera.covariance;

@@ -156,6 +156,7 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
   for (const PartSource& part : partsOf(session_case)) add("part", partText(part));
+  add("symmetries", symmetriesText(session_case.symmetries));
   const InputSigmas sigmas(session_case);
   add("scale, one sigma", meshScaleText(sigmas));
   add("calibration, one sigma",

@@ -81,6 +81,8 @@ struct SessionCase {
   std::optional<CameraReference> camera_reference;
   /// At least one is matched; each has a place in the scene by the case's frames.
   std::vector<MeshInput> parts;
+  /// Of the station: poses that differ by one of them count as the same. No input of a run.
+  Symmetries symmetries;
   std::optional<double> feature_size_m;
   /// Relative, one sigma; empty: kAssumedMeshScaleSigma. No input of a run.
   std::optional<double> mesh_scale_sigma;

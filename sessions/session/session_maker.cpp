@@ -72,6 +72,7 @@ SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const Image
     session_case.parts[i].source.state = dataset_case.part_states[i];
   const auto& station = dataset.stations.at(dataset_case.station);
   session_case.feature_size_m = station.feature_size_m;
+  session_case.symmetries = station.symmetries;
   session_case.mesh_scale_sigma = station.mesh_scale_sigma;
   session_case.camera_from_station_seed = dataset_case.seed_camera_from_station;
   session_case.station_frame = dataset_case.station_frame;
@@ -149,6 +150,7 @@ MadeCase makeCase(const CaseFiles& files) {
   }
   session_case.parts = meshInputs(files.parts);
   session_case.feature_size_m = files.feature_size_m;
+  session_case.symmetries = files.symmetries;
   session_case.mesh_scale_sigma = files.mesh_scale_sigma;
   PoseFrames frames{camera.reference, readTransforms(files)};
   if (has_image) addLabelFrames(files.image, camera.reference, frames.transforms);

@@ -28,6 +28,7 @@ struct CaseFiles {
   std::optional<UncertaintyPivot> pivot;           ///< instead of the seed file's
   std::optional<std::filesystem::path> truth;
   std::optional<std::filesystem::path> ignore;
+  Symmetries symmetries;
   std::optional<double> feature_size_m;
   std::optional<double> mesh_scale_sigma;
   /// Used instead of the transforms between CAMERA and END_EFFECTOR.

@@ -85,6 +85,7 @@ Session withStated(const Session& session, const std::string& case_id, const Sta
   if (stated.camera_from_end_effector)
     changed.camera_from_end_effector = stated.camera_from_end_effector;
   if (stated.requirement) changed.requirement = stated.requirement;
+  if (stated.symmetries) changed.symmetries = *stated.symmetries;
   return withCase(next, std::move(changed));
 }
 
@@ -134,6 +135,20 @@ Session withInputSigmas(const Session& session, const std::string& case_id,
     if (session_case->camera == chosen->camera)
       writeChange(chosen->calibration_sigma, calibration_sigma, changed.calibration_sigma);
     if (!(changed == *session_case)) next = withCase(next, std::move(changed));
+  }
+  return next;
+}
+
+Session withSymmetries(const Session& session, const std::string& case_id,
+                       const Symmetries& symmetries) {
+  const SessionCase* chosen = session.findCase(case_id);
+  if (chosen == nullptr || chosen->symmetries == symmetries) return session;
+  Session next = session;
+  for (const auto& session_case : session.cases) {
+    if (!sameMeshes(*session_case, *chosen)) continue;
+    SessionCase changed = *session_case;
+    changed.symmetries = symmetries;
+    next = withCase(next, std::move(changed));
   }
   return next;
 }

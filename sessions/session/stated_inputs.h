@@ -11,14 +11,18 @@
 
 namespace boresight::sessions {
 
-/// End effector, requirement and frames of a case. Members without a value change nothing.
+/// End effector, requirement, symmetries and frames of a case. Members without a value change
+/// nothing.
 struct StatedInputs {
   std::optional<Pose> camera_from_end_effector;
   std::optional<Requirement> requirement;
+  std::optional<Symmetries> symmetries;  ///< empty ones: the station has none
   /// Added; replaces a transform between the same two frames.
   std::vector<FrameTransform> frames;
 
-  bool empty() const { return !camera_from_end_effector && !requirement && frames.empty(); }
+  bool empty() const {
+    return !camera_from_end_effector && !requirement && !symmetries && frames.empty();
+  }
 };
 
 /// The same session with these inputs of a case. Transforms that change the chain of CAMERA and
@@ -49,5 +53,10 @@ std::string calibrationOrigin(const InputSigmas& sigmas);
 Session withInputSigmas(const Session& session, const std::string& case_id,
                         const std::optional<double>& mesh_scale_sigma,
                         const std::optional<StatedCalibration>& calibration_sigma);
+
+/// The same session with these symmetries of a case, and of the other cases of the same parts where
+/// they change.
+Session withSymmetries(const Session& session, const std::string& case_id,
+                       const Symmetries& symmetries);
 
 }  // namespace boresight::sessions

@@ -123,20 +123,22 @@ QString viewsHtml(const sessions::CaseAnnotationsSolution& solved) {
 }
 
 QStringList differenceRow(const QString& name, const Pose& other, const Pose& annotated,
-                          const sessions::CaseAnnotations& annotations, const QString& more) {
-  const sessions::PoseError error =
-      sessions::poseError(other, annotated, annotations.camera_from_end_effector);
+                          const sessions::CaseAnnotations& annotations,
+                          const sessions::PoseComparer& comparer, const QString& more) {
+  const sessions::PoseError error = sessions::poseError(
+      comparer.equivalent(other, annotated), annotated, annotations.camera_from_end_effector);
   return {name.toHtmlEscaped(), QString::number(error.normal_mm, 'f', 3),
           QString::number(error.lateral_mm, 'f', 3),
           QString::number(error.geodesic_mrad / kMradPerDegree, 'f', 4), more};
 }
 
 QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others,
-                     const Pose& annotated) {
+                     const Pose& annotated, const sessions::PoseComparer& comparer) {
   const sessions::CaseAnnotations& annotations = answer.solution->annotations;
   QVector<QStringList> rows;
   for (const ComparedPose& other : others)
-    rows << differenceRow(other.name, other.camera_from_station, annotated, annotations, {});
+    rows << differenceRow(other.name, other.camera_from_station, annotated, annotations, comparer,
+                          {});
   for (const RoundAnswer& round : answer.rounds) {
     const int shared = static_cast<int>(round.repeatability.annotations.size());
     const QString repeated = shared > 0
@@ -146,7 +148,8 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
                                  : solutionText("no annotation in common");
     const QString name = solutionText("round of %1").arg(fromText(round.by));
     if (round.camera_from_station)
-      rows << differenceRow(name, *round.camera_from_station, annotated, annotations, repeated);
+      rows << differenceRow(name, *round.camera_from_station, annotated, annotations, comparer,
+                            repeated);
     else
       rows.append({name.toHtmlEscaped(), solutionText("no pose"), QString(), QString(), repeated});
   }
@@ -197,13 +200,14 @@ QString geometryMeterText(const AnnotationAnswer& answer) {
       .arg(weak.isEmpty() ? solutionText("no weakness") : weak.join(QStringLiteral(", ")));
 }
 
-QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others) {
+QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others,
+                     const sessions::PoseComparer& comparer) {
   if (!answer.solution) return {};
   const QString html = warningsHtml(*answer.solution);
   const auto annotated = answer.solution->camera_from_station();
   if (!annotated) return html;
   return html + sigmaHtml(answer) + ambiguityHtml(*answer.solution) + viewsHtml(*answer.solution) +
-         comparedHtml(answer, others, *annotated);
+         comparedHtml(answer, others, *annotated, comparer);
 }
 
 /// The station's named points without annotation in this image: to confirm their predictions, or to
@@ -436,14 +440,16 @@ void AnnotationPanel::showSolution() {
   ui_.geometryMeter->setText(geometryMeterText(answer));
   ui_.solution->setEnabled(!controller_.stale());  // dimmed until it is true again
   const int place = ui_.solution->verticalScrollBar()->value();
-  ui_.solution->setHtml(solutionHtml(answer, otherPoses()));
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  ui_.solution->setHtml(solutionHtml(
+      answer, otherPoses(),
+      loaded_case ? sessions::differenceComparer(*loaded_case) : sessions::PoseComparer()));
   ui_.solution->verticalScrollBar()->setValue(place);
   const QSignalBlocker blocked(ui_.robust);
   ui_.robust->setChecked(controller_.robust());
   const bool solved = controller_.solvedPose().has_value();
   ui_.annotationAsTruth->setEnabled(solved && !controller_.stale());
   ui_.annotationAsSeed->setEnabled(solved && !controller_.stale());
-  const ViewState::CasePtr& loaded_case = state_.currentCase();
   ui_.together->setVisible(loaded_case && loaded_case->source.rig);
 }
 

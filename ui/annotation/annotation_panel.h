@@ -11,6 +11,7 @@
 #include "ui_annotation_panel.h"
 
 #include "sessions/io/datasets/dataset_file.h"
+#include "sessions/session/pose_comparer.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/annotations_model.h"
 
@@ -35,7 +36,8 @@ QString geometryMeterText(const AnnotationAnswer& answer);
 /// Further details of a solution: weaknesses of the annotations, one sigma against the requirement,
 /// both poses of a plane, residuals per camera, and the distances to other poses (seed, run, truth)
 /// and rounds. Colour is never the only indication.
-QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others);
+QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others,
+                     const sessions::PoseComparer& comparer = {});
 
 /// Panel for annotating: tools, the table of annotations, and the quality of the solved pose.
 class AnnotationPanel : public QWidget {

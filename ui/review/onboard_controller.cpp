@@ -7,6 +7,7 @@
 
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
+#include "sessions/session/pose_comparer.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 
@@ -107,8 +108,8 @@ void OnboardController::compareAgain() {
   tasks_.replace(
       comparing_,
       [review = review_, run = ground_, one = state_.currentCase()](const std::stop_token&) {
-        return std::make_shared<const sessions::RecordComparison>(
-            sessions::compareWithGround(*review, *run, one->problem()));
+        return std::make_shared<const sessions::RecordComparison>(sessions::compareWithGround(
+            *review, *run, one->problem(), sessions::comparisonLimits(*one)));
       },
       [this](ComparisonPtr comparison_ptr) {
         comparison_ = std::move(comparison_ptr);

@@ -11,8 +11,13 @@
 #include "core/base/math.h"
 #include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_fields.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/input_check.h"
+#include "sessions/session/pose_comparer.h"
+#include "sessions/session/session_file.h"
 #include "sessions/trace/run_text.h"
 #include "ui/models/text.h"
 #include "ui/run/task_runner.h"
@@ -100,10 +105,26 @@ QImage thumbnailOf(const sessions::ImageInput& input) {
   }
 }
 
-std::optional<Pose> resultOf(const sessions::RunRecord& run) {
+/// Names the error of a run against the truth of its case as it is now.
+std::string errorKey(const sessions::SessionCase& session_case, const sessions::RunRecord& run) {
+  sessions::SessionCase asked;
+  asked.camera_from_station_truth = session_case.camera_from_station_truth;
+  asked.camera_from_end_effector = session_case.camera_from_end_effector;
+  asked.symmetries = session_case.symmetries;
+  return run.digest +
+         sessions::sha256Text(sessions::toJson(asked, sessions::PathWriter("/")).dump());
+}
+
+/// Of a station without symmetries the mesh is not read.
+std::optional<sessions::PoseError> errorOf(const sessions::SessionCase& session_case,
+                                           const sessions::RunRecord& run) {
   try {
     const sessions::LocalizationTrace trace = sessions::loadRun(run);
-    return trace.converged() ? std::optional(trace.camera_from_station) : std::nullopt;
+    if (!trace.converged()) return std::nullopt;
+    sessions::SceneMesh scene;
+    if (!session_case.symmetries.empty()) scene = sessions::readKnownScene(session_case);
+    return sessions::PoseComparer(session_case, scene.view())
+        .difference(*sessions::judgingTruth(session_case), trace.camera_from_station);
   } catch (const std::exception&) {
     return std::nullopt;
   }
@@ -158,7 +179,8 @@ bool CaseDetails::readResult(const std::string& id) {
   const sessions::SessionCase* session_case = session_.findCase(id);
   const sessions::RunRecord* run = session_.lastRunOf(id);
   return session_case && run && sessions::judgingTruth(*session_case) &&
-         read(id, poses_, run->digest, [run = *run] { return resultOf(run); });
+         read(id, errors_, errorKey(*session_case, *run),
+              [one = *session_case, run = *run] { return errorOf(one, run); });
 }
 
 bool CaseDetails::readNextOf(std::deque<std::string>& ids,
@@ -182,10 +204,9 @@ void CaseDetails::readNext() {
 void CaseDetails::fillErrors(const sessions::SessionCase& session_case, CaseRow& row) const {
   const sessions::RunRecord* run = session_.lastRunOf(session_case.id);
   if (!run || !sessions::judgingTruth(session_case)) return;
-  const auto found = poses_.find(run->digest);
-  if (found == poses_.end() || !found->second) return;
-  const sessions::PoseError error = sessions::poseError(
-      *sessions::judgingTruth(session_case), *found->second, session_case.camera_from_end_effector);
+  const auto found = errors_.find(errorKey(session_case, *run));
+  if (found == errors_.end() || !found->second) return;
+  const sessions::PoseError& error = *found->second;
   row.normal_mm = std::abs(error.normal_mm);
   row.lateral_mm = error.lateral_mm;
   row.rotation_deg = 1e-3 * error.rotation_mrad / kDegree_rad;

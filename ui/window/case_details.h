@@ -11,7 +11,7 @@
 #include <QObject>
 #include <QTimer>
 
-#include "core/geometry/pose.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/session/session.h"
 #include "ui/panels/case/cases_panel.h"
 #include "ui/run/case_by_case.h"
@@ -55,8 +55,9 @@ class CaseDetails : public QObject {
 
   TaskRunner& tasks_;
   sessions::Session session_;
-  std::map<std::string, QImage> thumbnails_;          ///< by hash of the file; null: cannot be read
-  std::map<std::string, std::optional<Pose>> poses_;  ///< by digest of the run; empty: no result
+  std::map<std::string, QImage> thumbnails_;  ///< by hash of the file; null: cannot be read
+  /// By errorKey(); empty: no result.
+  std::map<std::string, std::optional<sessions::PoseError>> errors_;
   bool reading_ = false;
   std::deque<std::string> pictures_;  ///< cases whose pictures are to be read, then their results
   std::deque<std::string> results_;

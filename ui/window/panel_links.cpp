@@ -225,8 +225,10 @@ void PanelLinks::askForJudgement() {
     changed.camera_from_end_effector = dialog.cameraFromEndEffector();
     changed.requirement = dialog.requirement();
   };
-  parts_.document.edit(sessions::withChanged(parts_.document.session(), id, state),
-                       tr("State end effector and requirement of %1").arg(fromText(id)));
+  const sessions::Session next = sessions::withChanged(parts_.document.session(), id, state);
+  parts_.document.edit(
+      sessions::withSymmetries(next, id, dialog.symmetries()),
+      tr("State end effector, requirement and symmetries of %1").arg(fromText(id)));
 }
 
 void PanelLinks::linkFrames() {
@@ -273,7 +275,7 @@ void PanelLinks::showJudgement() {
   if (loaded_case) {
     judgement.requirement = loaded_case->source.requirement;
     judgement.truth_covariance = loaded_case->source.truth_covariance;
-    judgement.camera_from_end_effector = loaded_case->source.camera_from_end_effector;
+    judgement.comparer = sessions::differenceComparer(*loaded_case);
   }
   docks_.poses.setJudgement(judgement);
 }

@@ -288,13 +288,6 @@ Symmetries readBopSymmetries(const JsonReader& model) {
   return symmetries;
 }
 
-Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad) {
-  Pose turn;
-  turn.rotation = rotationExp(angle_rad * symmetry.axis);
-  turn.translation_m = symmetry.point_m - turn.rotation * symmetry.point_m;
-  return turn;
-}
-
 FrameTree framesOf(const Dataset& dataset, const Case& dataset_case) {
   return frameTree(dataset.cameras.at(dataset_case.camera).reference, dataset.transforms);
 }

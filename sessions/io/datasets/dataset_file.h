@@ -14,32 +14,16 @@
 #include "core/geometry/pose.h"
 #include "sessions/io/cameras/camera_file.h"
 #include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/datasets/symmetries.h"
 #include "sessions/io/images/image_file.h"
 #include "sessions/io/json/json_reader.h"
 #include "sessions/io/meshes/scene_mesh.h"
 
 namespace boresight::sessions {
 
-/// A rotational symmetry: the station looks the same after any rotation about a line.
-struct AxisSymmetry {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();    ///< unit length, station frame
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< on the line, station frame
-};
-
-/// Symmetries of a station: transforms station_from_station after which it looks the same.
-struct Symmetries {
-  std::vector<Pose> discrete;  ///< without the identity
-  std::vector<AxisSymmetry> continuous;
-
-  bool empty() const { return discrete.empty() && continuous.empty(); }
-};
-
 /// `symmetries_discrete` (16 numbers each, row by row) and `symmetries_continuous` (axis, offset)
 /// of an entry of BOP's models_info.json, millimetres. InputError.
 Symmetries readBopSymmetries(const JsonReader& model);
-
-/// The turn by `angle_rad` about a symmetry's line.
-Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad);
 
 /// Limits of the errors of a result; at least one is stated, the others are not judged.
 struct Requirement {

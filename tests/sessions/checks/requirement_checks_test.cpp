@@ -6,6 +6,7 @@
 #include "sessions/checks/pose_uncertainty.h"
 #include "tests/sessions/checks/drawn_box.h"
 #include "tests/sessions/checks/find_check.h"
+#include "tests/support/box_mesh.h"
 #include "tests/support/matchers.h"
 
 namespace boresight::sessions {
@@ -49,6 +50,24 @@ TEST_F(AgreementChecks, ExactTruth_IsComparedWithTheRequirement) {
   one_.camera_from_station_truth = movedBy(0.6, 0.0);
   EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 150.0, 1e-6);
   EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kFailed);
+}
+
+TEST_F(AgreementChecks, PosesThatDifferByADeclaredSymmetry_CountAsTheSame) {
+  loaded_->scene = test::boxMesh({0.03, 0.02, 0.01});
+  const Symmetries half_turns = symmetriesIn("x 180; y 180; z 180");
+  const Pose turned = movedBy(0.1, -0.3) * half_turns.discrete[1];
+  one_.camera_from_station_truth = turned;
+  subject_.annotated = OtherPose{"the annotation", turned};
+  for (const char* id : {"agreement_annotation", "agreement_truth"})
+    EXPECT_EQ(checkOf(id).state, CheckState::kFailed) << id;
+  EXPECT_FALSE(withinRequirement(subject_, turned));
+  one_.symmetries = half_turns;
+  for (const char* id : {"agreement_annotation", "agreement_truth"}) {
+    EXPECT_NEAR(checkOf(id).figure.value(), 75.0, 1e-6) << id;
+    EXPECT_THAT(checkOf(id).sentence, HasSubstr("differ by a declared symmetry"));
+  }
+  EXPECT_TRUE(withinRequirement(subject_, turned));
+  EXPECT_FALSE(withinRequirement(subject_, movedBy(0.6, 0.0) * half_turns.discrete[1]));
 }
 
 TEST_F(AgreementChecks, TruthThatIsThePoseOfARun_IsNoEvidence) {

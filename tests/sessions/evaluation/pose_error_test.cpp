@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
+
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "sessions/evaluation/model_error.h"
@@ -288,6 +290,47 @@ TEST_F(ModelError, TurnsAboutAnAxisAreTheChallengesAndFiner) {
     // Half a step of 0.02 rad moves nothing by more than 0.01 times its distance from the axis.
     EXPECT_GE(found, sampled - 0.01 * 0.1);
   }
+}
+
+TEST_F(ModelError, NearestEquivalent_IsTheTruthThatErrorsAreMeasuredTo) {
+  Random random = test::randomFor("ModelError.Nearest");
+  const auto cloud = randomVertices(random, 40);
+  Symmetries symmetries;
+  symmetries.continuous = {{Vector3d(0.0, 0.6, 0.8), Vector3d(0.01, 0.0, 0.003)}};
+  const ModelView model{cloud, &symmetries};
+  const Pose truth = test::randomPose(random);
+  Vector6d offset;
+  for (int k = 0; k < 6; ++k) offset[k] = random.uniform(-0.01, 0.01);
+  const Pose estimate = perturbed(offset, truth * turnAbout(symmetries.continuous[0], 2.5));
+  const Pose nearest = nearestEquivalent(truth, estimate, model);
+  EXPECT_NEAR(surfaceDistance_m(nearest, estimate, {cloud}),
+              surfaceDistance_m(truth, estimate, model), 1e-9);
+  EXPECT_EQ(nearestEquivalent(truth, truth, model), truth) << "to the bit";
+  EXPECT_EQ(nearestEquivalent(truth, estimate, {cloud}), truth) << "without symmetries";
+}
+
+/// A motion and the same without its turn about the axis move vertices apart by a turn alone.
+TEST_F(ModelError, DeterminedCovariance_HasNoTurnAboutTheAxis) {
+  Random random = test::randomFor("ModelError.Determined");
+  const auto tube = randomVertices(random, 60);
+  Symmetries symmetries;
+  symmetries.continuous = {{Vector3d(0.0, 0.6, 0.8), Vector3d(0.01, 0.0, 0.003)}};
+  const ModelView model{tube, &symmetries};
+  const Pose pose = poseOf({0.4, 0.1, -0.3}, {0.01, -0.02, 0.5});
+  const Vector6d turn = symmetricMotions(pose, symmetries);
+  const Pose turned = pose * turnAbout(symmetries.continuous[0], 1e-6);
+  EXPECT_LT((perturbationBetween(pose, turned) - 1e-6 * turn).norm(), 1e-11);
+  const Matrix6d known = 1e-6 * Matrix6d::Identity();
+  const Matrix6d determined = determinedCovariance(known, pose, model);
+  EXPECT_LT((determinedCovariance(known + 10.0 * turn * turn.transpose(), pose, model) - determined)
+                .norm(),
+            1e-12);
+  EXPECT_LT((determinedCovariance(determined, pose, model) - determined).norm(), 1e-16);
+  // Motions that remain move the vertices across the turn on the whole.
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(determined);
+  EXPECT_LT(eigen.eigenvalues()[0], 1e-18);
+  EXPECT_GT(eigen.eigenvalues()[1], 1e-9);
+  EXPECT_EQ(determinedCovariance(known, pose, {tube}), known);
 }
 
 TEST_F(ModelError, TubeTurnedAboutItsAxisIsNoError) {

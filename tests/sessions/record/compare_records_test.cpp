@@ -317,6 +317,23 @@ TEST(CompareRecords, DistanceOfPoses_IsInMillimetresMilliradiansAndSigmas) {
   }
 }
 
+TEST(CompareRecords, PoseThatASymmetryMakesTheSame_IsNotApart) {
+  Random random = randomFor("CompareRecords.Symmetry");
+  const Pose half_turn{Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0), Eigen::Vector3d::Zero()};
+  TwoRuns runs(1);
+  runs.run.end->camera_from_station = randomPose(random);
+  runs.other.end->camera_from_station = runs.run.end->camera_from_station * half_turn;
+  RecordComparison found = compareRecords(runs.run, runs.other);
+  EXPECT_NEAR(found.rotation_mrad, 3141.6, 0.1);
+  EXPECT_FALSE(found.by_symmetry);
+  ComparisonLimits limits;
+  limits.equivalent = [&](const Pose& pose, const Pose&) { return pose * half_turn; };
+  found = compareRecords(runs.run, runs.other, limits);
+  EXPECT_NEAR(found.rotation_mrad, 0.0, 1e-9);
+  EXPECT_LT(found.pose_sigmas.value_or(1.0), 1e-6);
+  EXPECT_THAT(comparisonText(found), HasSubstr("by the declared symmetries"));
+}
+
 TEST(CompareRecords, Sigmas_NeedTwoPosesAndAUsableCovariance) {
   const auto sigmas = [](void (*make)(TwoRuns&)) {
     TwoRuns runs(1);

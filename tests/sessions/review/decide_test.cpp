@@ -117,8 +117,10 @@ TEST_F(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
            [](Session&, auto& item) {
              item.camera_covariance.emplace().of_vectors.setIdentity(12, 12);
            }},
-          {"the requirement has",
+          {"the requirement or the symmetries has",
            [](Session&, auto& item) { item.requirement.emplace().normal_mm = 1.0; }},
+          {"the requirement or the symmetries has",
+           [](Session&, auto& item) { item.symmetries = sessions::symmetriesIn("z"); }},
           {"the end effector has",
            [](Session&, auto& item) { item.camera_from_end_effector = Pose(); }},
           {"the rig has", [](Session&, auto& item) { item.rig.emplace().id = "r"; }},

@@ -562,6 +562,7 @@ class WholeCase : public ValidatedPose {
     left.ignore_strokes.push_back({.radius_px = 2.0, .points = {{3.0, 4.0}}, .name = "screw"});
     left.onboard_record = inputOf("a.whsr");
     left.rig = sessions::Rig{"rig", Pose()};
+    left.symmetries = sessions::symmetriesIn("z at 0.1 0.2 0.3; y 180");
     left.mesh_scale_sigma = 0.0004;
     left.calibration_sigma = sessions::StatedCalibration{0.0003, 0.4};
     left.requirement = sessions::Requirement{0.5, 0.5, 0.3, {}};
@@ -630,7 +631,7 @@ const std::vector<std::pair<std::string, const char*>>& freePlaces() {
       {"/session/runs/[0-9]+/(file|version|time)", "the run is repeated: its trace is not needed"},
       {"/session/review/second_person", "both persons are named"},
       {"/session/cases/1/(station|truth|truth_covariance|truth_source|requirement|onboard_record|"
-       "camera_from_end_effector|frames|feature_size_m)(/.*)?",
+       "camera_from_end_effector|symmetries|frames|feature_size_m)(/.*)?",
        "of the other camera only its pose counts"},
   };
   return kFree;

@@ -62,6 +62,7 @@ TEST(InputSheet, MeasuresTheExample) {
               0.1 * width_mm);
   for (const SheetLine& line : sheet.lines) EXPECT_FALSE(line.value.empty());
   EXPECT_EQ(lineOf(sheet, "scale, one sigma"), "0.02 %, assumed");
+  EXPECT_EQ(lineOf(sheet, "symmetries"), "none");
   EXPECT_THAT(lineOf(sheet, "calibration, one sigma"), StartsWith("0.02 % and 0.25 px, assumed"));
   SessionCase stated = session_case;
   stated.mesh_scale_sigma = 0.001;

@@ -81,6 +81,13 @@ inline void addRandomFrames(Random& random, sessions::SessionCase& session_case)
   if (coin(random)) session_case.truth_frame = session_case.station_frame;
 }
 
+inline void addRandomSymmetries(Random& random, sessions::SessionCase& session_case) {
+  if (coin(random)) session_case.symmetries.discrete.push_back(randomPose(random));
+  if (coin(random))
+    session_case.symmetries.continuous.push_back(
+        {randomPose(random).rotation * Eigen::Vector3d::UnitX(), randomPose(random).translation_m});
+}
+
 /// How well mesh, camera and truth are known.
 inline void addRandomSigmas(Random& random, sessions::SessionCase& session_case) {
   if (coin(random)) session_case.mesh_scale_sigma = random.uniform(0.0, 0.1);
@@ -149,6 +156,7 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   if (coin(random)) session_case.camera_from_end_effector = randomPose(random);
   addRandomFrames(random, session_case);
   if (coin(random)) session_case.landmarks = randomPath(random, ".json");
+  addRandomSymmetries(random, session_case);
   return session_case;
 }
 

@@ -476,7 +476,8 @@ TEST(Journal, DamagedAtAnyByte_RecoversTheEditsBeforeIt) {
 
 TEST(Journal, OfVersion1_IsOffered) {
   Random random = randomFor("Journal1");
-  const EditedSession edited(random, 3);
+  const EditedSession edited(random, 6);
+  ASSERT_FALSE(edited.sessions.back() == edited.saved.session);
   const auto write = [&](const std::string& base_sha256) {
     edited.folder.write(
         "s.journal", R"({"format": "boresight-journal", "version": 1, "base_sha256": ")" +

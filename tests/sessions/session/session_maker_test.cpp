@@ -102,12 +102,16 @@ TEST(SessionMaker, SigmasAndTruth_OfTheDataset_AreKept) {
   const TemporaryFolder folder;
   CaseFiles files = filesOf(copyOfExamples(folder) / "os");
   const Session stated = sessionOfChanged(folder, [](auto& json) {
-    for (auto& station : json["stations"]) station["mesh_scale_sigma"] = 0.001;
+    for (auto& station : json["stations"]) {
+      station["mesh_scale_sigma"] = 0.001;
+      station["symmetries"]["continuous"] = {{{"axis", {0, 0, 2}}, {"point_m", {0.1, 0, 0}}}};
+    }
     for (auto& camera : json["cameras"])
       camera["calibration_sigma"] = {{"focal_relative", 0.003}, {"principal_point_px", 2.0}};
   });
   for (const auto& session_case : stated.cases) {
     EXPECT_EQ(session_case->mesh_scale_sigma, 0.001);
+    EXPECT_EQ(symmetriesText(session_case->symmetries), "z at 0.1 0 0");
     EXPECT_EQ(session_case->calibration_sigma, (StatedCalibration{0.003, 2.0}));
   }
   files.mesh_scale_sigma = 0.002;

@@ -32,6 +32,24 @@ TEST(StatedInputs, WhatIsNotStatedStays) {
   EXPECT_THROW((void)withStated(oneCase(), "b", stated), InputError);
 }
 
+TEST(StatedInputs, SymmetriesAreStatedAndTakenBack) {
+  StatedInputs stated;
+  stated.symmetries = symmetriesIn("z 90");
+  EXPECT_FALSE(stated.empty());
+  const Session next = withStated(oneCase(), "a", stated);
+  EXPECT_EQ(next.cases[0]->symmetries.discrete.size(), 3u);
+  EXPECT_EQ(inputsDigest(*next.cases[0]), inputsDigest(*oneCase().cases[0]))
+      << "no run depends on them";
+  SessionCase other = *next.cases[0];
+  other.id = "b";
+  const Session two = withSymmetries(withCase(next, other), "b", symmetriesIn("z"));
+  for (const auto& session_case : two.cases)
+    EXPECT_EQ(symmetriesText(session_case->symmetries), "z") << "of the same mesh";
+  stated.symmetries = symmetriesIn("none");
+  EXPECT_FALSE(stated.empty());
+  EXPECT_TRUE(withStated(next, "a", stated) == oneCase());
+}
+
 TEST(StatedInputs, TransformsGiveTheEndEffectorAndReplaceFormerOnes) {
   StatedInputs stated;
   stated.frames = {shifted(kCameraFrame, kEndEffectorFrame, 0.1)};

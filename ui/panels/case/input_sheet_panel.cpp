@@ -5,6 +5,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/io/files/errors.h"
 #include "ui/models/rows_model.h"
 #include "ui/widgets/widgets.h"
 
@@ -53,7 +54,8 @@ std::optional<sessions::StatedCalibration> InputSigmasDialog::calibrationSigma()
 JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)
     : QDialog(parent),
       former_end_effector_(one.camera_from_end_effector.value_or(Pose())),
-      former_requirement_(one.requirement.value_or(sessions::Requirement())) {
+      former_requirement_(one.requirement.value_or(sessions::Requirement())),
+      former_symmetries_(one.symmetries) {
   ui_.setupUi(this);
   ui_.endEffectorStated->setChecked(one.camera_from_end_effector.has_value());
   QDoubleSpinBox* const place[] = {ui_.endEffectorX, ui_.endEffectorY, ui_.endEffectorZ};
@@ -63,6 +65,23 @@ JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* pare
   normal_mm_ = {*ui_.normal, 1.0, former_requirement_.normal_mm};
   lateral_mm_ = {*ui_.lateral, 1.0, former_requirement_.lateral_mm};
   rotation_deg_ = {*ui_.rotation, 1.0, former_requirement_.rotation_deg};
+  ui_.symmetries->setText(fromText(sessions::symmetriesText(former_symmetries_)));
+  connect(ui_.symmetries, &QLineEdit::textChanged, this, &JudgementDialog::readSymmetries);
+  readSymmetries();
+}
+
+void JudgementDialog::readSymmetries() {
+  const std::string text = ui_.symmetries->text().toStdString();
+  QString problem;
+  try {
+    symmetries_ = text == sessions::symmetriesText(former_symmetries_)
+                      ? former_symmetries_
+                      : sessions::symmetriesIn(text);
+  } catch (const sessions::InputError& error) {
+    problem = fromText(error.field() + ": " + error.reason());
+  }
+  ui_.problem->setText(problem);
+  ui_.buttons->button(QDialogButtonBox::Ok)->setEnabled(problem.isEmpty());
 }
 
 std::optional<Pose> JudgementDialog::cameraFromEndEffector() const {

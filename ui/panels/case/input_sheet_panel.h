@@ -38,8 +38,9 @@ class InputSigmasDialog : public QDialog {
   StatedNumber centre_px_;
 };
 
-/// Asks for the point at which a pose is judged, and for its allowed errors. A limit that is not
-/// stated is shown as such, and stays so unless it is given a value.
+/// Asks for the point at which a pose is judged, its allowed errors, and the station's symmetries. A
+/// limit that is not stated is shown as such, and stays so unless it is given a value. Cannot be
+/// accepted while the text of the symmetries has no meaning.
 class JudgementDialog : public QDialog {
   Q_OBJECT
 
@@ -50,10 +51,16 @@ class JudgementDialog : public QDialog {
   std::optional<Pose> cameraFromEndEffector() const;
   /// A requirement in pixels is kept.
   std::optional<sessions::Requirement> requirement() const;
+  /// The former ones where the text is unchanged.
+  const sessions::Symmetries& symmetries() const { return symmetries_; }
 
  private:
+  void readSymmetries();
+
   Pose former_end_effector_;
   sessions::Requirement former_requirement_;
+  sessions::Symmetries former_symmetries_;
+  sessions::Symmetries symmetries_;
   Ui::JudgementDialog ui_;
   std::array<StatedNumber, 3> place_m_;
   StatedNumber normal_mm_, lateral_mm_, rotation_deg_;
@@ -73,7 +80,7 @@ class InputSheetPanel : public QWidget {
  Q_SIGNALS:
   /// The operator asks to state the uncertainty of mesh and camera.
   void sigmasRequested();
-  /// The same for end effector and requirement.
+  /// The same for end effector, requirement and symmetries.
   void judgementRequested();
 
  private:

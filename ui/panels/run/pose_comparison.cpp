@@ -79,6 +79,7 @@ PoseComparison::PoseComparison(QWidget* parent) : QWidget(parent) {
 
 void PoseComparison::setPoses(const Poses& poses) {
   poses_ = poses;
+  showSigma();
   showDifference();
 }
 
@@ -89,18 +90,26 @@ void PoseComparison::setCovariance(const std::optional<Matrix6d>& covariance) {
 
 void PoseComparison::setJudgement(const PoseJudgement& judgement) {
   judgement_ = judgement;
-  const QString place =
-      QString::fromUtf8(sessions::judgedPlace(judgement_.camera_from_end_effector));
+  const QString place = QString::fromUtf8(sessions::judgedPlace(judgement_.comparer.endEffector()));
   ui_.sure->setTitle(tr("One sigma of the current pose at the %1, by the image only").arg(place));
-  ui_.apart->setTitle(tr("Difference at the %1").arg(place));
+  ui_.apart->setTitle(judgement_.comparer.symmetric()
+                          ? tr("Difference at the %1, by the declared symmetries").arg(place)
+                          : tr("Difference at the %1").arg(place));
   showSigma();
   showDifference();
 }
 
+/// One sigma of the pose of a role as it is judged; empty where there is no such pose.
+std::optional<sessions::PoseSigma> PoseComparison::sigmaOf(const Matrix6d& covariance,
+                                                           PoseRole role) const {
+  const sessions::PoseComparer& comparer = judgement_.comparer;
+  const auto& pose = poses_[static_cast<std::size_t>(role)];
+  return sessions::poseSigma(pose ? comparer.determined(covariance, *pose) : covariance,
+                             comparer.endEffector());
+}
+
 void PoseComparison::showSigma() {
-  const auto sigma = covariance_
-                         ? sessions::poseSigma(*covariance_, judgement_.camera_from_end_effector)
-                         : std::nullopt;
+  const auto sigma = covariance_ ? sigmaOf(*covariance_, PoseRole::kEstimate) : std::nullopt;
   ui_.sigma->setText(sigma ? htmlTable(sigmaRows(*sigma, judgement_.requirement))
                            : tr("No covariance: no pose has been solved here."));
 }
@@ -113,9 +122,8 @@ void PoseComparison::showDifference() {
       ui_.difference->setText(tr("There is no pose \"%1\".").arg(poseRoleName(role)));
       return;
     }
-  const sessions::PoseError error = sessions::poseError(
-      *poses_[static_cast<std::size_t>(from_role)], *poses_[static_cast<std::size_t>(to_role)],
-      judgement_.camera_from_end_effector);
+  const sessions::PoseError error = judgement_.comparer.difference(
+      *poses_[static_cast<std::size_t>(from_role)], *poses_[static_cast<std::size_t>(to_role)]);
   const RowLimits limits(judgement_.requirement);
   QVector<QStringList> rows = {
       judgedRow(tr("normal"), error.normal_mm, tr("mm"), limits.normal_mm),
@@ -124,10 +132,9 @@ void PoseComparison::showDifference() {
       judgedRow(tr("twist"), error.in_plane_mrad, tr("mrad")),
       judgedRow(tr("whole angle"), error.geodesic_mrad, tr("mrad"))};
   const bool of_truth = from_role == PoseRole::kTruth || to_role == PoseRole::kTruth;
-  const auto sigma =
-      of_truth && judgement_.truth_covariance
-          ? sessions::poseSigma(*judgement_.truth_covariance, judgement_.camera_from_end_effector)
-          : std::nullopt;
+  const auto sigma = of_truth && judgement_.truth_covariance
+                         ? sigmaOf(*judgement_.truth_covariance, PoseRole::kTruth)
+                         : std::nullopt;
   if (sigma)
     rows << judgedRow(tr("one sigma of the truth, normal"), sigma->normal_mm, tr("mm"),
                       limits.normal_mm)

@@ -12,6 +12,7 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/datasets/dataset_file.h"
+#include "sessions/session/pose_comparer.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
@@ -26,7 +27,7 @@ void offerRoles(QComboBox& box, PoseRole chosen);
 /// Data by which poses are judged.
 struct PoseJudgement {
   std::optional<sessions::Requirement> requirement;
-  std::optional<Pose> camera_from_end_effector;   ///< where translations are judged
+  sessions::PoseComparer comparer = {};           ///< of the case's station
   std::optional<Matrix6d> truth_covariance = {};  ///< of a truth from annotations
 };
 
@@ -56,6 +57,7 @@ class PoseComparison : public QWidget {
  private:
   void showSigma();
   void showDifference();
+  std::optional<sessions::PoseSigma> sigmaOf(const Matrix6d& covariance, PoseRole role) const;
 
   Poses poses_;
   std::optional<Matrix6d> covariance_;

@@ -138,5 +138,23 @@ TEST(UncertaintyDialogTest, FiguresThatAreNotChanged_KeepTheirExactValues) {
   EXPECT_EQ(dialog.uncertainty(), stated);
 }
 
+TEST(JudgementDialogTest, SymmetriesAreReadFromText_AndStayExactWhereItIsUnchanged) {
+  sessions::SessionCase session_case;
+  session_case.symmetries = sessions::symmetriesIn("z at 0.1 0 0");
+  session_case.symmetries.continuous[0].point_m.y() = 1e-12;  // not in the text
+  JudgementDialog dialog(session_case, nullptr);
+  EXPECT_EQ(dialog.symmetries(), session_case.symmetries);
+  auto* text = dialog.findChild<QLineEdit*>(QStringLiteral("symmetries"));
+  const QPushButton* accept = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+  text->setText(QStringLiteral("z 100"));
+  EXPECT_FALSE(accept->isEnabled());
+  EXPECT_TRUE(dialog.findChild<QLabel*>(QStringLiteral("problem"))
+                  ->text()
+                  .contains(QStringLiteral("not a part of a whole turn")));
+  text->setText(QStringLiteral("z; x 180"));
+  EXPECT_TRUE(accept->isEnabled());
+  EXPECT_EQ(dialog.symmetries(), sessions::symmetriesIn("z; x 180"));
+}
+
 }  // namespace
 }  // namespace boresight::ui

@@ -228,6 +228,20 @@ TEST_F(PosePanelTest, ComparesAnyTwoPosesAgainstTheRequirement) {
   EXPECT_TRUE(label.text().contains(QStringLiteral("no pose")));
 }
 
+TEST_F(PosePanelTest, ComparesToTheEquivalentPoseByDeclaredSymmetries) {
+  sessions::SessionCase one = state_.currentCase()->source;
+  one.symmetries = sessions::symmetriesIn("0.6 0 0.8");
+  PoseJudgement judgement;
+  judgement.comparer = sessions::PoseComparer(one, state_.currentCase()->scene.view());
+  panel_.setJudgement(judgement);
+  const auto error = judgement.comparer.difference(truth(), state_.shownPose());
+  const auto plain = sessions::poseError(truth(), state_.shownPose(), one.camera_from_end_effector);
+  EXPECT_NE(error.geodesic_mrad, plain.geodesic_mrad);
+  EXPECT_TRUE(
+      find<QLabel>("difference").text().contains(QString::number(error.geodesic_mrad, 'f', 4)));
+  EXPECT_TRUE(find<QGroupBox>("apart").title().contains(QStringLiteral("declared symmetries")));
+}
+
 TEST_F(PosePanelTest, SurvivesTheCaseBeingClosed) {
   QTest::keyClick(&pad(), Qt::Key_Right);
   state_.setCase(nullptr);
