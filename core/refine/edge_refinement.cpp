@@ -31,7 +31,7 @@ Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   setOptions(options);
   absolute_residuals_ = arena.allocate<float>(options.max_samples);
-  found_at_px_ = arena.allocate<double>(options.max_samples);
+  found_ = arena.allocate<Found>(options.max_samples);
   if (groups_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
@@ -155,7 +155,7 @@ void EdgeRefinement::searchChunk(int chunk) {
         search.find(image_, ignore_, predicted_px, normal, radius_px_, kMinGradient);
     sample.residual_px = peak.offset_px;
     sample.gradient = peak.gradient;
-    nth(found_at_px_, i) = normal.dot(predicted_px) + peak.offset_px;
+    nth(found_, i) = {normal.dot(predicted_px) + peak.offset_px, peak.blur_px};
   }
 }
 
@@ -218,14 +218,14 @@ EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
     Eigen::Matrix<double, 2, 3> jacobian;
     if (!projectWithJacobian(camera_, point_in_camera_m, pixel, jacobian)) continue;
     const Eigen::Vector2d normal = sample.normal();
-    sample.residual_px = nth(found_at_px_, i) - normal.dot(pixel);
+    sample.residual_px = nth(found_, i).at_px - normal.dot(pixel);
     if (std::abs(sample.residual_px) >= cut_px) continue;
     const double ratio = sample.residual_px / cut_px;
     sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
     const Vector6d row = lineRow(point_in_camera_m, normal, jacobian);
     const double weight = shareOf(sample) * sample.weight;
     addRow(row, weight, sample.residual_px, equations.step);
-    noteGroups(sample, pixel, row, ratio, equations.errors.curvature);
+    noteGroups(sample, pixel, row, ratio, nth(found_, i).blur_px, equations.errors.curvature);
     weights += weight;
     if (sample.weight > 0.5) ++result.used_count;
   }
@@ -235,14 +235,16 @@ EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
 
 /// Adds a sample to the sums of the covariance; `ratio`: residual over the cut-off of the weights.
 void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel,
-                                const Vector6d& row, double ratio, Matrix6d& curvature) {
+                                const Vector6d& row, double ratio, double blur_px,
+                                Matrix6d& curvature) {
   const double squared = ratio * ratio;
   const double share = shareOf(sample);
   const double bend = share * (1.0 - squared) * (1.0 - 5.0 * squared);  // of Tukey's influence
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b <= a; ++b) curvature(a, b) += bend * row[a] * row[b];
-  groups_.add(groupedError(sample, pixel, box_px_), sample.residual_px,
-              share * sample.weight * row);
+  GroupedError error = groupedError(sample, pixel, box_px_);
+  error.blur_px = blur_px;
+  groups_.add(error, sample.residual_px, share * sample.weight * row);
 }
 
 }  // namespace boresight

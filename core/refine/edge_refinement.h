@@ -166,7 +166,7 @@ class EdgeRefinement {
   bool noteMove(const Vector6d& xi);
   EdgeEquations weightedEquations(double& weights);
   void noteGroups(const EdgeSample& sample, const Eigen::Vector2d& pixel, const Vector6d& row,
-                  double ratio, Matrix6d& curvature);
+                  double ratio, double blur_px, Matrix6d& curvature);
 
   RefinementOptions options_;
   ImageView image_;
@@ -184,8 +184,12 @@ class EdgeRefinement {
   Matrix6d motion_ = Matrix6d::Zero();  ///< xi' motion xi: mean square along the normals, px^2
   Eigen::AlignedBox2d box_px_;          ///< of the edge places where they begin
   std::span<float> absolute_residuals_;
-  /// Per sample, where the edge was found: the image's coordinate along the sample's normal.
-  std::span<double> found_at_px_;
+  /// The edge found at a sample.
+  struct Found {
+    double at_px = 0.0;    ///< the image's coordinate along the sample's normal
+    double blur_px = 0.0;  ///< EdgePeak::blur_px
+  };
+  std::span<Found> found_;  ///< per sample
   std::int32_t round_ = 0;
   double moved_px_ = 0.0;  ///< since the last search of the edges
   double scale_px_ = 0.0;  ///< of the residuals then

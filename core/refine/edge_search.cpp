@@ -19,6 +19,7 @@ constexpr std::int32_t kWeightMask = (1 << kWeightBits) - 1;
 constexpr double kProfileUnit_gray = 1.0 / (4 << (2 * kWeightBits));
 /// Above the change of a place by rounding.
 constexpr double kMargin_px = 1e-3;
+constexpr double kMostBlur_px = 6.0;  ///< of an edge that is measured
 
 /// Rounded steps and places relative to a pixel; symmetric about 0, so that a line searched from
 /// its other side is sampled at the same places.
@@ -41,7 +42,8 @@ std::int32_t grayAt(const std::uint8_t* origin, std::ptrdiff_t stride, std::int3
 
 }  // namespace
 
-EdgeSearch::EdgeSearch(double sigma_px, double step_px) : step_px_(step_px) {
+EdgeSearch::EdgeSearch(double sigma_px, double step_px)
+    : step_px_(step_px), sigma_px_(static_cast<float>(sigma_px)) {
   taps_ = std::clamp(static_cast<int>(3.0 * sigma_px / step_px_ + 0.5), 1, kMaxTaps);
   double ramp = 0.0;
   std::array<double, kMaxTaps> weights{};
@@ -100,6 +102,14 @@ void EdgeSearch::derive(const Profile& profile, int count, Profile& slope) const
   }
 }
 
+/// Of a Gaussian edge whose derivative has this height and second difference at its peak.
+double EdgeSearch::blurOf_px(double strength, double bend) const {
+  if (!(bend < 0.0)) return kMostBlur_px;
+  const double squared_px2 =
+      -strength * step_px_ * step_px_ / bend - static_cast<double>(sigma_px_ * sigma_px_);
+  return squared_px2 > 0.0 ? std::min(std::sqrt(squared_px2), kMostBlur_px) : 0.0;
+}
+
 EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
                           const Eigen::Vector2d& predicted_px, const Eigen::Vector2d& normal,
                           double radius_px, double min_gradient) const {
@@ -126,7 +136,7 @@ EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
     best = preference;
     const double bend = before - 2.0 * strength + after;
     const double shift = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-    peak = {(i + std::clamp(shift, -0.5, 0.5)) * step_px_, slope_at_i};
+    peak = {(i + std::clamp(shift, -0.5, 0.5)) * step_px_, slope_at_i, blurOf_px(strength, bend)};
   }
   if (ignore != nullptr && peak.gradient != 0.0) {
     // Inside: the profile around it was sampled.

@@ -13,6 +13,7 @@ namespace boresight {
 struct EdgePeak {
   double offset_px = 0.0;  ///< along the normal, from the predicted place
   double gradient = 0.0;   ///< signed derivative along the normal, gray/px; 0: nothing found
+  double blur_px = 0.0;    ///< standard deviation of the edge's blur in the image
 };
 
 /// Searches a raw image along a line's normal for its largest derivative: profiles of small steps,
@@ -43,9 +44,12 @@ class EdgeSearch {
               const Eigen::Vector2d& normal, int reach, Profile& profile) const;
   void derive(const Profile& profile, int count, Profile& slope) const;
 
+  double blurOf_px(double strength, double bend) const;
+
   std::array<float, kMaxTaps> kernel_{};  ///< one side; antisymmetric; for the profile's unit
   double step_px_ = kFineStep_px;
   int taps_ = 1;
+  float sigma_px_ = 1.0F;  ///< of the derivative
 };
 
 }  // namespace boresight

@@ -2,6 +2,7 @@
 #include "core/refine/error_groups.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/nth.h"
 #include "core/pnp/normal_equations.h"
@@ -61,8 +62,12 @@ void ErrorGroups::add(const GroupedError& error, double residual_px, const Vecto
   const std::array<int, 3> groups = groupsOf(error);
   for (std::size_t i = 0; i < groups.size(); ++i)
     nth(scores_, kFirst[i] + groups[i]) += residual_px * slope;
-  const std::array<double, 3> offsets = {1.0, error.normal.x(), error.normal.y()};
-  for (std::size_t i = 0; i < offsets.size(); ++i) common_[i] += offsets[i] * slope;
+  const double of_blur_px = kOffsetOfBlur * error.blur_px;
+  const double outwards_px =
+      std::sqrt(kCommonOffset_px * kCommonOffset_px + of_blur_px * of_blur_px);
+  const std::array<double, 3> offsets_px = {outwards_px, kCommonOffset_px * error.normal.x(),
+                                            kCommonOffset_px * error.normal.y()};
+  for (std::size_t i = 0; i < offsets_px.size(); ++i) common_[i] += offsets_px[i] * slope;
 }
 
 bool ErrorGroups::addSquares(int first, int count, Matrix6d& squares) const {
@@ -82,8 +87,7 @@ bool ErrorGroups::addSquares(int first, int count, Matrix6d& squares) const {
 
 void ErrorGroups::sum(ErrorSums& sums) const {
   sums.squares = Matrix6d::Zero();
-  for (const Vector6d& slope : common_)
-    sums.squares += kCommonOffset_px * kCommonOffset_px * slope * slope.transpose();
+  for (const Vector6d& slope : common_) sums.squares += slope * slope.transpose();
   sums.suffices = addSquares(0, kByPlace, sums.squares) &&
                   addSquares(kByPlace, kBySide, sums.squares) &&
                   addSquares(kByPlace + kBySide, kByKind, sums.squares);

@@ -28,6 +28,7 @@ struct GroupedError {
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< of the edge, in the image
   bool brighter = false;                             ///< the image is brighter along the normal
   std::uint8_t kind = 0;                             ///< EdgeKind bits
+  double blur_px = 0.0;                              ///< standard deviation of the edge's blur
 };
 
 /// Sums from which the covariance of a pose is computed; those of several views are added.
@@ -53,7 +54,8 @@ struct ErrorSums {
 /// intersections: an error alone in all three counts three times, so that the covariance is rather
 /// too large. An error common to all edges changes the pose and leaves no residual: an offset
 /// outwards (bevels, blur) and a shift of the image along each axis (light from one side, sampling)
-/// of kCommonOffset_px are added as if measured.
+/// are added as if measured: of kCommonOffset_px, outwards also of kOffsetOfBlur times the blur,
+/// since the steepest place of a blurred edge depends on the tone curve and on its surroundings.
 class ErrorGroups {
  public:
   Status create(Arena& arena);  ///< Takes the sums from `arena`. kArenaTooSmall.
@@ -69,6 +71,7 @@ class ErrorGroups {
   static int sectorOf(const Eigen::Vector2d& direction);
 
   static constexpr double kCommonOffset_px = 0.05;   ///< common to all edges, one sigma
+  static constexpr double kOffsetOfBlur = 0.1;       ///< one sigma
   static constexpr int kCells = 8;                   ///< along each side
   static constexpr int kSectors = 16;                ///< of directions
   static constexpr int kKinds = 8;                   ///< of edges

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -14,12 +15,14 @@ namespace boresight {
 /// Rotations within the seed's stated uncertainty, as view directions and turns in the image: each
 /// sample is Rz(turn) * T in the view's frame, where T is the shortest rotation that brings the
 /// view direction to the view's z axis. View directions lie on rings around that of the seed, a
-/// spacing apart along and across the rings; turns are a spacing apart. The spacing is 15 deg, and
-/// half of that where the box is small: from a 15 deg grid not every descent reaches the true pose.
-/// The whole sphere has 188 directions.
+/// spacing apart along and across the rings; turns are a spacing apart. The spacing is 7.5 deg for
+/// boxes of up to 20 deg, grows with larger ones, so that the number of samples does not, and is 15
+/// deg from 40 deg on: from a 15 deg grid not every descent reaches the true pose. The whole sphere
+/// has 188 directions.
 class RotationGrid {
  public:
-  static constexpr double kSmallBox_rad = 20.0 * kDegree_rad;  ///< largest side of small boxes
+  static constexpr double kSmallBox_rad =
+      20.0 * kDegree_rad;  ///< largest side with the least spacing
 
   /// Range of a grid.
   struct Range {
@@ -32,7 +35,7 @@ class RotationGrid {
   RotationGrid() = default;
   /// Starts before the first direction.
   explicit RotationGrid(const Range& range)
-      : range_(range), count_(range.box_rad.maxCoeff() > kSmallBox_rad ? 24 : kMostTurns) {}
+      : range_(range), count_(turnsFor(range.box_rad.maxCoeff())) {}
 
   /// Goes to the next direction of which at least one turn is within reach. False: none is left.
   [[nodiscard]] bool next();
@@ -49,6 +52,12 @@ class RotationGrid {
   static constexpr int kMostTurns = 48;
   using Turns = std::array<Eigen::Quaterniond, kMostTurns>;
 
+  static constexpr int kLeastTurns = 24;
+
+  static int turnsFor(double box_rad) {
+    const double most = kMostTurns * kSmallBox_rad / std::max(box_rad, kSmallBox_rad);
+    return std::max(kLeastTurns, static_cast<int>(most));
+  }
   int placesOn(int ring) const;
   std::uint64_t turnsWithinReach(const Turns& turned) const;
 

@@ -70,6 +70,25 @@ TEST(EdgeSearch, WideSteps_FindStepsToATenthOfAPixel) {
   EXPECT_LT(std::abs(meanOf(errors_px)), 0.01);  // unbiased
 }
 
+TEST(EdgeSearch, BlurOfAnEdge_IsMeasured) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    const double blur_px = random.uniform(0.6, 3.5);
+    const StepEdge edge = edgeAt(random.uniform(0.0, 2.0 * M_PI), random.uniform(-1.0, 1.0), 150.0);
+    Picture picture = flatPicture(kSide, kSide, 0);
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const double beyond_px = edge.normal.dot(Eigen::Vector2d(x, y)) - edge.distance_px;
+        const double share = 0.5 * (1.0 + std::erf(beyond_px / (std::sqrt(2.0) * blur_px)));
+        picture.gray[static_cast<std::size_t>(y * kSide + x)] =
+            static_cast<std::uint8_t>(std::lround(20.0 + edge.contrast * share));
+      }
+    const EdgePeak peak =
+        EdgeSearch(1.0).find(picture.view(), nullptr, kCentre, edge.normal, 4.0, 2.0);
+    EXPECT_NEAR(peak.blur_px, blur_px, 0.15 * blur_px + 0.15);
+  }
+}
+
 /// Bilinear, with weights that are rounded down to 1/1024.
 double grayAt(const ImageView& image, const Eigen::Vector2d& at) {
   const int x = static_cast<int>(at.x());

@@ -88,7 +88,8 @@ TEST(ErrorGroups, SectorsAreThoseOfTheAngle) {
 
 TEST(ErrorGroups, EqualsSumsOverMaps) {
   Random random(2);
-  const std::vector<Sample> samples = noisySamples(random, 3000);
+  std::vector<Sample> samples = noisySamples(random, 3000);
+  for (Sample& sample : samples) sample.error.blur_px = random.uniform(0.0, 4.0);
   const Grouped grouped(samples);
   ASSERT_TRUE(grouped.solved);
   std::array<std::map<std::array<int, 2>, Vector6d>, 3> ways;
@@ -109,11 +110,13 @@ TEST(ErrorGroups, EqualsSumsOverMaps) {
     const auto count = static_cast<double>(way.size());
     for (const auto& [key, sum] : way) squares += sum * sum.transpose() * count / (count - 1.0);
   }
-  // An offset of all edges by 0.05 px outwards, along x and along y leaves no residual.
+  // An offset of all edges by 0.05 px outwards, along x and along y leaves no residual, nor one
+  // outwards by a tenth of the blur.
   Eigen::Matrix<double, 6, 3> common = Eigen::Matrix<double, 6, 3>::Zero();
   for (const Sample& sample : samples)
-    common += 0.05 * sample.row *
-              Eigen::RowVector3d(1.0, sample.error.normal.x(), sample.error.normal.y());
+    common += sample.row * Eigen::RowVector3d(std::hypot(0.05, 0.1 * sample.error.blur_px),
+                                              0.05 * sample.error.normal.x(),
+                                              0.05 * sample.error.normal.y());
   squares += common * common.transpose();
   const Matrix6d inverse = grouped.sums.curvature.inverse();
   const Matrix6d expected = inverse * squares * inverse;

@@ -42,9 +42,10 @@ RotationGrid::Range rangeOf(const Eigen::Vector3d& box_deg, Random& random) {
   return range;
 }
 
-const Eigen::Vector3d kBoxes_deg[] = {{2, 2, 2},     {8, 8, 8},      {10, 3, 30},  {13, 180, 13},
-                                      {180, 13, 13}, {13, 13, 180},  {45, 45, 45}, {90, 10, 90},
-                                      {180, 180, 8}, {180, 180, 180}};
+const Eigen::Vector3d kBoxes_deg[] = {{2, 2, 2},      {8, 8, 8},     {10, 3, 30},  {13, 180, 13},
+                                      {180, 13, 13},  {13, 13, 180}, {21, 21, 21}, {29, 29, 29},
+                                      {37, 37, 37},   {45, 45, 45},  {90, 10, 90}, {180, 180, 8},
+                                      {180, 180, 180}};
 
 TEST(RotationGrid, RotationsOfTheBox_HaveASampleWithinTheSpacing) {
   Random random(1);
@@ -63,6 +64,19 @@ TEST(RotationGrid, RotationsOfTheBox_HaveASampleWithinTheSpacing) {
         nearest = std::min(nearest, angleBetween(sample, in_view));
       EXPECT_LT(nearest, RotationGrid(range).spacing_rad());
     }
+  }
+}
+
+TEST(RotationGrid, LargerBox_HasNoFewSamples) {
+  Random random(3);
+  std::size_t most = 0;
+  for (double side_deg = 8.0; side_deg <= 60.0; side_deg += 0.5) {
+    RotationGrid::Range range = rangeOf(Eigen::Vector3d::Constant(side_deg), random);
+    range.view_from_camera = Eigen::Quaterniond::Identity();
+    range.aside_rad.setZero();
+    const std::size_t samples = samplesOf(range).size();
+    EXPECT_GT(samples, 0.7 * static_cast<double>(most)) << side_deg;
+    most = std::max(most, samples);
   }
 }
 
