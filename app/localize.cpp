@@ -15,6 +15,7 @@
 #include "sessions/run/runner.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/text/text_table.h"
+#include "sessions/trace/doubtful_pose.h"
 #include "sessions/trace/overlay.h"
 #include "sessions/trace/run_text.h"
 #include "sessions/trace/trace_file.h"
@@ -72,6 +73,9 @@ void writeOverlay(const std::string& file, const sessions::LoadedCase& loaded,
       {"seed", session_case.camera_from_station_seed, sessions::kSeedColor}};
   if (trace.converged()) {
     layers.push_back({"result", trace.camera_from_station, sessions::kResultColor});
+  } else if (const auto doubtful = sessions::doubtfulPose(trace)) {
+    layers.push_back({"doubtful pose, " + sessions::probabilityPercent(doubtful->probability),
+                      doubtful->camera_from_station, sessions::kDoubtfulColor});
   } else if (!trace.iterations.empty()) {
     layers.push_back({std::string("last hypothesis, ") + localizationStatusText(trace.status),
                       trace.iterations.back()->camera_from_station, sessions::kResultColor});

@@ -60,6 +60,7 @@ std::optional<int> runOne(sessions::SessionDocument& document, const std::string
   document.apply(sessions::withRun(document.session(), run), "Run " + id);
   print(id + ": " + run.status + ", " + std::to_string(trace.iterations.size()) +
         " iterations, digest " + run.digest);
+  if (const std::string text = doubtfulPoseText(trace); !text.empty()) print(id + ": " + text);
   return trace.converged() ? kDone : kNotConverged;
 }
 

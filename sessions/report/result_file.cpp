@@ -13,6 +13,7 @@
 #include "sessions/run/image_quality.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/session/session_file.h"
+#include "sessions/trace/doubtful_pose.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
@@ -196,6 +197,9 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   const LocalizationProblem problem = provenance.loaded->problem();
   json["acceptance"] =
       acceptanceJson(trace, trace.lastOptions().search.color && problem.color.data != nullptr);
+  if (const auto doubtful = doubtfulPose(trace))
+    json["doubtful_pose"] = {{"camera_from_station", toJson(doubtful->camera_from_station)},
+                             {"probability", doubtful->probability}};
   json["candidates"] = candidatesJson(trace);
   json["compared_poses"] = comparedPosesJson(trace);
   if (trace.competitor >= 0) json["score_gap"] = trace.gap;

@@ -19,8 +19,9 @@ namespace boresight::sessions {
 using ColorBgr = std::array<std::uint8_t, 3>;
 /// The colours of the window, distinct also without red or green (Okabe and Ito 2008).
 ///@{
-inline constexpr ColorBgr kSeedColor = {0, 159, 230};     ///< orange
-inline constexpr ColorBgr kResultColor = {233, 180, 86};  ///< blue
+inline constexpr ColorBgr kSeedColor = {0, 159, 230};       ///< orange
+inline constexpr ColorBgr kResultColor = {233, 180, 86};    ///< blue
+inline constexpr ColorBgr kDoubtfulColor = {200, 92, 255};  ///< pink
 inline constexpr ColorBgr kTruthColor = {255, 255, 255};
 ///@}
 

@@ -14,6 +14,7 @@
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"
+#include "sessions/trace/doubtful_pose.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
@@ -173,6 +174,7 @@ std::string faultText(const LocalizationTrace& trace) {
 }
 
 std::string notSupportedText(const LocalizationTrace& trace) {
+  if (doubtfulPose(trace)) return probabilityText(trace) + ". " + doubtfulPoseText(trace);
   if (hasProbability(trace))
     return probabilityText(trace) + "; check mesh and camera, or state a larger uncertainty";
   const EdgeSupport& support = trace.support;
@@ -283,6 +285,7 @@ std::string acceptedSentence(const LocalizationTrace& trace) {
 }
 
 std::string notSupportedSentence(const LocalizationTrace& trace) {
+  if (doubtfulPose(trace)) return doubtfulPoseText(trace);
   if (hasProbability(trace))
     return "Probability of the pose " + probabilityPercent(trace.probability) + ", " +
            neededProbability(trace) + " needed. " + seedDoubt(trace);
@@ -400,6 +403,14 @@ std::string timesText(double nats) {
   const double times = std::exp(nats);
   if (times > kMostTimes) return "more than 1000 times";
   return fixedText(times, times < 10.0 ? 1 : 0) + " times";
+}
+
+std::string doubtfulPoseText(const LocalizationTrace& trace) {
+  const std::optional<DoubtfulPose> pose = doubtfulPose(trace);
+  if (!pose) return "";
+  return "Doubtful pose, probability " + probabilityPercent(pose->probability) + " (" +
+         neededProbability(trace) +
+         " needed): compare it with the image, and annotate from it if it is right.";
 }
 
 std::string originText(const PoseHypothesis& hypothesis) {

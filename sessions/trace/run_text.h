@@ -45,6 +45,9 @@ std::string timesText(double nats);
 /// image's edges, the origin of the pose, and the competing poses. Empty for a run without a pose.
 std::string acceptanceText(const LocalizationTrace& trace);
 
+/// One sentence on the doubtfulPose() of a run: its probability, and what to do. Empty without one.
+std::string doubtfulPoseText(const LocalizationTrace& trace);
+
 /// Why a run failed: the values measured and needed, and what to try. One sentence or two; empty
 /// for a run that converged.
 std::string explanation(const LocalizationTrace& trace);

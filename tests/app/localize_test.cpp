@@ -85,6 +85,25 @@ TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
                              HasSubstr(" and comes from "), HasSubstr("image at the seed: noise")));
 }
 
+TEST(WhsLocalize, DoubtfulPose_IsStatedNextToTheSeedThatIsKept) {
+  const TemporaryFolder folder;
+  const sessions::GrayImage image = halfHiddenImage();
+  sessions::writePng(folder / "hidden.png", image.pixels, image.width, image.height, 1);
+  const ProgramRun run = runWhs(localizeArguments({{"--image", folder / "hidden.png"},
+                                                   {"--out", folder / "result.json"},
+                                                   {"--overlay", folder / "overlay.png"}},
+                                                  true),
+                                4);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("not_supported"), HasSubstr("Doubtful pose, probability")));
+  const nlohmann::json result = jsonOf(folder / "result.json");
+  EXPECT_EQ(result["status"], "not_supported");
+  const nlohmann::json& doubtful = result["doubtful_pose"];
+  EXPECT_EQ(doubtful["probability"], result["acceptance"]["probability"]);
+  EXPECT_EQ(doubtful["camera_from_station"], result["iteration"].back()["camera_from_station"]);
+  EXPECT_EQ(result["camera_from_station"], result["camera_from_station_seed"]);
+  EXPECT_FALSE(WholeRun::get().result.contains("doubtful_pose"));
+}
+
 /// Other numbers of threads, and with a search: SameBits.Threads and SameBits.Kernels.
 TEST(WhsLocalize, GivesTheSameDigestByAllKernelsAndThreadsAndWithRecording) {
   const TemporaryFolder folder;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -54,6 +56,18 @@ struct ExampleCase {
 inline const ExampleCase& osExample() {
   static const ExampleCase example("os");
   return example;
+}
+
+/// Width of the plate of halfHiddenImage(), px.
+inline constexpr int kHidden_px = 320;
+
+/// The image of station os with a plate over its left: a run with its feature size finds the pose
+/// with a probability of 13 %.
+inline sessions::GrayImage halfHiddenImage() {
+  sessions::GrayImage image = osExample().image;
+  for (int y = 0; y < image.height; ++y)
+    std::fill_n(image.pixels.begin() + y * image.width, kHidden_px, std::uint8_t{90});
+  return image;
 }
 
 }  // namespace boresight::test

@@ -6,6 +6,8 @@
 
 #include <QtWidgets>
 
+#include "sessions/text/text_table.h"
+#include "sessions/trace/doubtful_pose.h"
 #include "sessions/trace/run_text.h"
 #include "sessions/trace/surface_point.h"
 #include "ui/models/text.h"
@@ -22,6 +24,8 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kBlinkMs = 500;
+/// In the colour of a rejected pose, with dashes instead of dots.
+constexpr LineToken kDoubtfulLine = {kRejectedLine.color, 2.2, 8, 5, true};
 using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
 using Marks = std::vector<Mark>;
 using MapsPtr = std::shared_ptr<const sessions::AgreementMaps>;
@@ -252,10 +256,18 @@ void ImagePanel::showPoseLook() {
   Layer layer = view_->layer(LayerId::kIterationEdges);
   const auto& run = state_.snapshot();
   const bool rejected = run && isRejected(*run);
-  layer.line = rejected ? std::optional<LineToken>(kRejectedLine) : std::nullopt;
-  layer.name = rejected                  ? tr("Rejected pose")
-               : run && run->converged() ? tr("Pose found")
-                                         : QString();
+  const auto doubtful = run ? sessions::doubtfulPose(*run) : std::nullopt;
+  // Iterations before the last one have other poses.
+  if (doubtful && state_.iterationPose() == doubtful->camera_from_station) {
+    layer.line = kDoubtfulLine;
+    layer.name =
+        tr("Doubtful pose, %1").arg(fromText(sessions::probabilityPercent(doubtful->probability)));
+  } else {
+    layer.line = rejected ? std::optional<LineToken>(kRejectedLine) : std::nullopt;
+    layer.name = rejected                  ? tr("Rejected pose")
+                 : run && run->converged() ? tr("Pose found")
+                                           : QString();
+  }
   view_->setLayer(std::move(layer));
 }
 

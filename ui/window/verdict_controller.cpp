@@ -6,10 +6,13 @@
 #include <QtWidgets>
 
 #include "sessions/checks/checks.h"
+#include "sessions/trace/doubtful_pose.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
 #include "ui/panels/case/cases_panel.h"
+#include "ui/panels/run/nudge_box.h"
 #include "ui/panels/run/nudge_gizmo.h"
+#include "ui/panels/run/pose_panel.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/quality_controller.h"
 #include "ui/review/queue_panel.h"
@@ -241,6 +244,8 @@ void VerdictController::perform(Step step) {
     case Step::kAnnotate:
       workspaces_.show(Workspace::kAnnotate);
       return parts_.annotation.setMode(PlaceMode::kPoint);
+    case Step::kAnnotateFromPose:
+      return annotateFromPose();
     case Step::kInspect:
       return workspaces_.reveal(QStringLiteral("inspector"));
     case Step::kCompetingPoses:
@@ -293,6 +298,18 @@ void VerdictController::nudgeSeed() {
   parts_.state.setCursor({-1, Stage::kFinished});
   QAction& nudges = docks_.gizmo.action();
   if (!nudges.isChecked()) nudges.trigger();
+}
+
+/// The doubtful pose is the start of the overlay only: the solution depends on annotations and
+/// seed.
+void VerdictController::annotateFromPose() {
+  const auto& run = parts_.state.snapshot();
+  if (!run || !sessions::doubtfulPose(*run)) return;
+  docks_.poses.nudgeController().drop();  // it would cover the doubtful pose
+  parts_.state.setCursor({static_cast<int>(run->iterations.size()) - 1, Stage::kFinished});
+  docks_.image.showLayer(LayerId::kIterationEdges, true);
+  workspaces_.show(Workspace::kAnnotate);
+  parts_.annotation.setMode(PlaceMode::kPoint);
 }
 
 void VerdictController::disablePair() {

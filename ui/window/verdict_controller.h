@@ -53,6 +53,7 @@ class VerdictController : public QObject {
   ReviewSituation reviewSituation() const;
   void changeInput();
   void nudgeSeed();
+  void annotateFromPose();
   void disablePair();
   void askForUncertainty();
 

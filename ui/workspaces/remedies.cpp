@@ -8,6 +8,7 @@
 #include <QCoreApplication>
 #include <QStringList>
 
+#include "sessions/trace/doubtful_pose.h"
 #include "sessions/trace/run_text.h"
 
 namespace boresight::ui {
@@ -21,6 +22,8 @@ constexpr Remedy kFarther = {
 constexpr Remedy kMasked = {Step::kMask,
                             "Something hides part of the station, or print and shadows add edges"};
 constexpr Remedy kMarks = {Step::kAnnotate, "Nothing else helps: four marked points give a seed"};
+constexpr Remedy kFromPose = {Step::kAnnotateFromPose,
+                              "The pose may be right: part of the station is hidden or missing"};
 constexpr Remedy kSheet = {Step::kInputs,
                            "Mesh, unit, camera or calibration may be wrong: see the warnings"};
 constexpr Remedy kOthers = {Step::kCompetingPoses,
@@ -30,6 +33,8 @@ std::vector<Remedy> likeliestFor(const sessions::LocalizationTrace& trace) {
   if (!trace.finished || trace.converged()) return {};
   switch (trace.status) {
     case LocalizationStatus::kNotSupported:
+      if (sessions::doubtfulPose(trace))
+        return {kFromPose, kMasked, kNudge, kWider, kFarther, kSheet};
       return {kWider, kNudge, kMasked, kFarther, kMarks, kSheet};
     case LocalizationStatus::kLeftUncertainty:
       return {kFarther, kNudge, kMarks, kSheet};
@@ -52,6 +57,7 @@ const char* doneText(Step step) {
       {Step::kMask, QT_TRANSLATE_NOOP("Remedies", "mask")},
       {Step::kUncertainty, QT_TRANSLATE_NOOP("Remedies", "stated uncertainty")},
       {Step::kAnnotate, QT_TRANSLATE_NOOP("Remedies", "annotations")},
+      {Step::kAnnotateFromPose, QT_TRANSLATE_NOOP("Remedies", "annotations")},
   };
   for (const auto& [done, text] : kTexts)
     if (done == step) return text;

@@ -25,6 +25,7 @@ enum class Step {
   kMask,
   kUncertainty,
   kAnnotate,
+  kAnnotateFromPose,
   kInspect,
   kCompetingPoses,
   kInputs,

@@ -13,6 +13,7 @@
 
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/trace/doubtful_pose.h"
 #include "tests/support/random_pose.h"
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "tests/ui/window_test.h"
@@ -21,6 +22,8 @@
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/window_docks.h"
+#include "ui/window/window_frame.h"
+#include "ui/workspaces/verdict_bar.h"
 
 namespace boresight::ui {
 namespace {
@@ -30,6 +33,14 @@ namespace fs = std::filesystem;
 constexpr double kHand_px = 0.3;  ///< root mean square distance by which a click misses
 constexpr double kMargin_px = 12.0;
 constexpr std::size_t kCandidates = 400;
+
+/// The examples with a plate over the left of station os.
+fs::path halfHiddenExample(const fs::path& folder) {
+  fs::copy(test::exampleFolder(), folder / "stations", fs::copy_options::recursive);
+  const sessions::GrayImage image = test::halfHiddenImage();
+  sessions::writePng(folder / "stations/os/image.png", image.pixels, image.width, image.height, 1);
+  return folder / "stations/dataset.json";
+}
 
 class ScriptedAnnotator : public test::WindowTest,
                           public testing::WithParamInterface<double>,
@@ -79,7 +90,7 @@ class ScriptedAnnotator : public test::WindowTest,
     for (std::size_t i = 0; i < edges.size(); i += step)
       for (const Vector3d& corner_m : {edges[i].start_in_station_m, edges[i].end_in_station_m})
         if (std::ranges::find(clear_m, corner_m) == clear_m.end() && isClear(truth(), corner_m) &&
-            isClear(drawn, corner_m))
+            pixelOf(truth(), corner_m).x() > hidden_px_ && isClear(drawn, corner_m))
           clear_m.push_back(corner_m);
     std::vector<Vector3d> chosen_m;
     while (chosen_m.size() < std::min(count, clear_m.size())) {
@@ -138,6 +149,7 @@ class ScriptedAnnotator : public test::WindowTest,
     EXPECT_TRUE(meetsRequirement(off, *source().requirement)) << *off.projection_px << " px";
   }
 
+  double hidden_px_ = 0.0;  ///< width of what a plate hides
   AnnotationTool* tool_ = nullptr;
   StationSnapper* snapper_ = nullptr;
 };
@@ -151,12 +163,48 @@ TEST_P(ScriptedAnnotator, FindsTheTruePoseOfTheBitCarousel) {
   EXPECT_LT(1e-3 * off.geodesic_mrad / kDegree_rad, 0.1);
 }
 
+/// A plate hides part of the image. The run is rejected; its pose is where annotating begins.
+class DoubtfulPoseAnnotator : public ScriptedAnnotator {};
+
+TEST_P(DoubtfulPoseAnnotator, RefinesTheDoubtfulPoseOfAHalfHiddenStation) {
+  openCase(halfHiddenExample(folder_.path()), "os");
+  window_.annotation().setMode(PlaceMode::kOff);
+  window_.workspaces().show(Workspace::kRun);
+  ASSERT_TRUE(runToTheEnd(1));
+  const auto doubtful = sessions::doubtfulPose(*window_.state().snapshot());
+  ASSERT_TRUE(doubtful) << window_.state().snapshot()->probability;
+  // A pose that was nudged before must neither cover it nor be picked on.
+  window_.state().setNudgedPose(source().camera_from_station_seed);
+
+  VerdictBar& bar = window_.frame().verdict();
+  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kAnnotateFromPose; }))
+      << bar.text().toStdString();
+  QTest::mouseClick(&bar.action(), Qt::LeftButton);
+  ASSERT_TRUE(wait([&] { return window_.workspaces().current() == Workspace::kAnnotate; }));
+  EXPECT_EQ(window_.annotation().mode(), PlaceMode::kPoint);
+  EXPECT_EQ(tool_->stationPose(), doubtful->camera_from_station);
+  ASSERT_TRUE(wait([&] { return !view().layer(LayerId::kIterationEdges).empty() && resting(); }));
+  EXPECT_TRUE(view().layer(LayerId::kIterationEdges).isShown());
+  EXPECT_TRUE(test::has(view().layer(LayerId::kIterationEdges).name, "Doubtful pose, "));
+
+  hidden_px_ = test::kHidden_px + kMargin_px;
+  annotate(chooseCorners(5));
+  ASSERT_EQ(window_.annotation().annotations().points.size(), 5u);
+  const sessions::PoseError off = error();
+  EXPECT_LT(std::hypot(off.normal_mm, off.lateral_mm), 1.0);
+  EXPECT_LT(1e-3 * off.geodesic_mrad / kDegree_rad, 0.5);
+  const auto& run = *window_.state().snapshot();
+  EXPECT_FALSE(run.converged()) << "it is never accepted";
+  EXPECT_EQ(run.camera_from_station, run.camera_from_station_seed);
+}
+
 TEST_P(ScriptedAnnotator, FindsThePoseOfABoxOnAPhotograph) { annotatePhotograph("visp_teabox"); }
 
 TEST_P(ScriptedAnnotator, FindsThePoseOfAMachinedPartOnAPhotograph) {
   annotatePhotograph("metal_obj18");
 }
 INSTANTIATE_TEST_SUITE_P(Zooms, ScriptedAnnotator, testing::Values(3.0, 12.0));
+INSTANTIATE_TEST_SUITE_P(Zoom, DoubtfulPoseAnnotator, testing::Values(3.0));
 
 }  // namespace
 }  // namespace boresight::ui

@@ -175,6 +175,20 @@ TEST_F(ImagePanelTest, PoseOfARejectedRunHasAColourAndAPatternOfItsOwn) {
   EXPECT_EQ(rejected.name, QStringLiteral("Rejected pose"));
 }
 
+TEST_F(ImagePanelTest, DoubtfulPose_IsCaptionedWithItsProbability_EarlierPosesOfTheRunAreRejected) {
+  auto run = std::make_shared<sessions::LocalizationTrace>(*test::runWithHypotheses());
+  run->status = LocalizationStatus::kNotSupported;
+  run->probability = 0.095;
+  state_.setSnapshot(run);
+  const Layer doubtful = layer(LayerId::kIterationEdges);
+  EXPECT_EQ(doubtful.name, QStringLiteral("Doubtful pose, 9.5 %"));
+  for (const LineToken& other : {kPoseLine, kSeedLine, kRejectedLine})
+    EXPECT_NE(doubtful.shownLine().dash_px, other.dash_px) << "the pattern differs too";
+  EXPECT_NE(doubtful.shownLine().color, kPoseLine.color);
+  state_.setCursor({0, Stage::kFinished});
+  EXPECT_EQ(layer(LayerId::kIterationEdges).name, QStringLiteral("Rejected pose"));
+}
+
 TEST_F(ImagePanelTest, AStageBringsItsLayerAndTakesItAway) {
   const auto run = test::runWithHypotheses();
   state_.setSnapshot(run);

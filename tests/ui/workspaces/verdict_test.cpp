@@ -296,6 +296,20 @@ TEST(Verdict, NotSupportedPose_IsRejectedInRunAndReviewAndOffersAWiderSearch) {
   EXPECT_TRUE(tells(situation, Tone::kBad, "Rejected", "", Step::kWiderSearch));
 }
 
+TEST(Verdict, DoubtfulPose_OffersToAnnotateFromItInRunAndReview) {
+  Situation situation = ready();
+  auto run = ended(LocalizationStatus::kNotSupported);
+  run->probability = 0.095;
+  situation.trace = run;
+  for (const Workspace workspace : {Workspace::kRun, Workspace::kDiagnose, Workspace::kReview}) {
+    situation.workspace = workspace;
+    EXPECT_TRUE(tells(situation, Tone::kBad, "Rejected", "Doubtful pose, probability 9.5 %",
+                      Step::kAnnotateFromPose));
+  }
+  situation.tried = {Step::kAnnotateFromPose};
+  EXPECT_NE(verdictOf(situation).step, Step::kAnnotateFromPose) << "it did not lead to a pose";
+}
+
 TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
   Situation situation = converged();
   situation.workspace = Workspace::kReview;
