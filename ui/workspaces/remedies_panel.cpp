@@ -36,7 +36,9 @@ QWidget* RemediesPanel::rowOf(const Remedy& remedy) {
   const QString text = QCoreApplication::translate("Remedies", remedy.cause);
   auto* cause = new QLabel(remedy.tried ? tr("Tried. %1").arg(text) : text);
   cause->setWordWrap(true);
-  cause->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  policy.setHeightForWidth(true);  // next to a long button a cause takes more lines
+  cause->setSizePolicy(policy);
   auto* button = new QPushButton;
   showStep(*button, remedy.step);
   button->setProperty("step", static_cast<int>(remedy.step));

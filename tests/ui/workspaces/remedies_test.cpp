@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/workspaces/remedies.h"
 
+#include <algorithm>
+
 #include "tests/ui/window/desktop.h"
 #include "tests/ui/window_test.h"
 #include "tests/ui/workspaces/desk.h"
@@ -49,6 +51,21 @@ TEST_F(RemediesTest, DiagnoseSaysWhyInFullAndBringsTheTools) {
   EXPECT_EQ(window_.annotation().mode(), PlaceMode::kPoint);
   press(Step::kMask);
   ASSERT_TRUE(wait([&] { return window_.dock(QStringLiteral("mask"))->isVisible(); }));
+}
+
+TEST_F(RemediesTest, NextToALongButton_CausesAreWhole) {
+  auto run = std::make_shared<sessions::LocalizationTrace>(*window_.state().snapshot());
+  run->probability = 0.095;
+  window_.state().setSnapshot(run);
+  window_.workspaces().show(Workspace::kDiagnose);
+  const auto causes =
+      window_.dock(QStringLiteral("remedies"))->findChild<QScrollArea*>()->findChildren<QLabel*>();
+  ASSERT_GE(causes.size(), 6);
+  EXPECT_TRUE(wait([&] {
+    return std::ranges::all_of(causes, [](const QLabel* cause) {
+      return cause->height() >= cause->heightForWidth(cause->width());
+    });
+  }));
 }
 
 TEST_F(RemediesTest, StatedUncertaintyRunsAgain) {
