@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/datasets/symmetries.h"
 #include "sessions/io/files/created_folder.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_fields.h"
@@ -52,6 +53,8 @@ std::shared_ptr<const LoadedCase> completed(const SessionCase& session_case, Gra
   loaded->source = session_case;
   loaded->image = std::move(image);
   loaded->scene = std::move(scene);
+  requireInPlace(session_case.symmetries, matchedBounds(loaded->scene.view()),
+                 "case " + session_case.id);
   loaded->ignore = loadMask(session_case, loaded->image);
   if (loaded->ignore) loaded->ignore_bits = loaded->ignore->view();
   logEvent(LogLevel::kInfo, [&session_case] { return inputsText(session_case); });

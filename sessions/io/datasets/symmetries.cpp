@@ -19,6 +19,7 @@ constexpr const char* kNone = "none";
 constexpr double kWhole_deg = 360.0;
 constexpr double kSame = 1e-9;  ///< rad, m, or parts of a turn
 constexpr double kMostTurns = 360.0;
+constexpr double kBesideBounds = 0.1;  ///< of the diagonal
 
 [[noreturn]] void refuse(std::string_view item, const std::string& reason) {
   throw InputError("symmetries", "'" + std::string(trimmed(item)) + "'", reason);
@@ -101,6 +102,20 @@ void add(const Turns& turns, Symmetries& symmetries) {
   }
 }
 
+/// Adds what turns after one another lead to: each followed by each of the steps.
+void close(const std::vector<Pose>& steps, std::vector<Pose>& turns) {
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    for (const Pose& step : steps) {
+      const Pose both = step * turns[i];
+      if (isSame(both, Pose()) || findSame(turns, both) != nullptr) continue;
+      if (turns.size() >= static_cast<std::size_t>(kMostTurns))
+        throw InputError("symmetries", "",
+                         "their turns after one another have no end: check the axes, and the "
+                         "points on them");
+      turns.push_back(both);
+    }
+}
+
 /// The turns that a transform is one step of; nothing for another motion or angle.
 std::optional<Turns> turnsOf(const Pose& transform) {
   Eigen::Vector3d turn_rad = rotationLog(transform.rotation);
@@ -160,14 +175,38 @@ Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad) {
 
 Symmetries symmetriesIn(std::string_view text) {
   Symmetries symmetries;
+  std::vector<Pose> steps;
   if (lowerCase(trimmed(text)) == kNone) return symmetries;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(';'), text.size());
     const std::string_view item = text.substr(0, end);
-    if (!trimmed(item).empty()) add(turnsIn(item), symmetries);
+    if (!trimmed(item).empty()) {
+      const Turns turns = turnsIn(item);
+      add(turns, symmetries);
+      if (turns.step_deg) steps.push_back(turnAbout(turns.line, *turns.step_deg * kDegree_rad));
+    }
     text.remove_prefix(std::min(end + 1, text.size()));
   }
+  close(steps, symmetries.discrete);
   return symmetries;
+}
+
+void requireInPlace(const Symmetries& symmetries, const BoundingBox& bounds_in_station,
+                    const std::string& location) {
+  std::vector<Pose> turns = symmetries.discrete;
+  for (const AxisSymmetry& line : symmetries.continuous) turns.push_back(turnAbout(line, kPi));
+  const double beside_m = kBesideBounds * bounds_in_station.diagonal();
+  const Eigen::Vector3d middle_m = bounds_in_station.centre();
+  for (const Pose& turn : turns) {
+    const Eigen::Vector3d turned_m = turn * middle_m;
+    const Eigen::Vector3d outside_m =
+        (bounds_in_station.minimum_m - turned_m).cwiseMax(turned_m - bounds_in_station.maximum_m);
+    if (outside_m.maxCoeff() > beside_m)
+      throw InputError(location, "symmetries",
+                       "a turn moves the middle of the mesh by " +
+                           numberText((turned_m - middle_m).norm()) +
+                           " m, out of the mesh: state a point on the axis, in m");
+  }
 }
 
 std::string symmetriesText(const Symmetries& symmetries) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 
 namespace boresight::sessions {
@@ -33,10 +34,17 @@ Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad);
 
 /// Symmetries as an operator writes them, separated by semicolons: "z" is any turn about the
 /// station's z axis, "z 90" the turns by 90 deg and its multiples. An axis is x, y, z or three
-/// numbers; "at X Y Z" adds a point on it, m. "none" and blanks: no symmetries. InputError.
+/// numbers; "at X Y Z" adds a point on it, m. Turns after one another are symmetries as well.
+/// "none" and blanks: no symmetries. InputError, also where the turns have no end.
 Symmetries symmetriesIn(std::string_view text);
 /// The same as text, which symmetriesIn() reads; transforms that are not turns by a part of a whole
 /// turn are counted instead: "and 2 other transforms". "none" without symmetries.
 std::string symmetriesText(const Symmetries& symmetries);
+
+/// InputError at `location` when a symmetry moves a station of these bounds out of its place: what
+/// looks the same after a turn has its middle near the axis. A point in mm would otherwise make any
+/// shift a symmetry.
+void requireInPlace(const Symmetries& symmetries, const BoundingBox& bounds_in_station,
+                    const std::string& location);
 
 }  // namespace boresight::sessions

@@ -21,6 +21,7 @@ constexpr double kMaxLength_m = 1e6;
 PathWriter::PathWriter(const fs::path& file) : folder_(fs::absolute(file).parent_path()) {}
 
 std::string PathWriter::operator()(const fs::path& file) const {
+  if (file.empty()) return "";  // of an input that is not there
   const fs::path whole = fs::absolute(file).lexically_normal();
   const fs::path relative = whole.lexically_relative(folder_.lexically_normal());
   return relative.empty() ? whole.string() : relative.string();

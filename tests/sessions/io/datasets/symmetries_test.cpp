@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/base/math.h"
@@ -13,7 +14,7 @@ namespace {
 
 TEST(SymmetriesText, Turns_AreReadAndWritten) {
   for (const char* text : {"none", "z", "z at 0.1 -0.2 0", "y 180", "0.6 0 0.8 120", "z; x 180",
-                           "z 90; x 180; y 180", "x 7.2"})
+                           "z 180; x 180; y 180", "x 7.2"})
     EXPECT_EQ(symmetriesText(symmetriesIn(text)), text);
   EXPECT_TRUE(symmetriesIn(" ").empty());
   EXPECT_EQ(symmetriesText(symmetriesIn("Z ;; 0 0 2 AT 0.1 0 3;")), "z; z at 0.1 0 3");
@@ -31,6 +32,30 @@ TEST(SymmetriesText, TurnAboutAPoint_LeavesThePoint) {
   ASSERT_EQ(again.discrete.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_LT(perturbationBetween(again.discrete[i], quarter.discrete[i]).norm(), 1e-12);
+}
+
+TEST(SymmetriesText, TurnsAfterOneAnother_AreSymmetries) {
+  const Symmetries square = symmetriesIn("z 90; x 180");
+  EXPECT_EQ(square.discrete.size(), 7u);
+  for (const Pose& first : square.discrete)
+    for (const Pose& second : square.discrete) {
+      const Pose both = first * second;
+      double least = perturbationBetween(Pose(), both).norm();
+      for (const Pose& turn : square.discrete)
+        least = std::min(least, perturbationBetween(turn, both).norm());
+      EXPECT_LT(least, 1e-9);
+    }
+  EXPECT_EQ(symmetriesIn("z 90; 1 1 1 120").discrete.size(), 23u) << "of a cube";
+  EXPECT_THROW((void)symmetriesIn("z 90; z 90 at 0.1 0 0"), InputError) << "shifts without end";
+  EXPECT_THROW((void)symmetriesIn("z 90; 1 0 1 72"), InputError);
+}
+
+TEST(SymmetriesText, TurnThatMovesTheStation_IsRefused) {
+  const BoundingBox bounds{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.3}};
+  for (const char* text : {"none", "z", "z 90; x 180 at 0 0 0.15", "z at 0.01 -0.01 0"})
+    EXPECT_NO_THROW(requireInPlace(symmetriesIn(text), bounds, "case 1")) << text;
+  for (const char* text : {"z at 0 100 0", "x 180", "x", "z 180 at 0.2 0 0"})
+    EXPECT_THROW(requireInPlace(symmetriesIn(text), bounds, "case 1"), InputError) << text;
 }
 
 TEST(SymmetriesText, OtherTransforms_AreCounted) {
