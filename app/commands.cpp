@@ -293,8 +293,8 @@ sessions::Dataset DatasetArguments::open() const {
 
 namespace {
 
-void sayNotices(const sessions::SessionDocument& document) {
-  for (const std::string& text : document.notices()) note(text);
+void sayNotices(const sessions::SessionDocument& document, std::size_t first = 0) {
+  for (std::size_t i = first; i < document.notices().size(); ++i) note(document.notices()[i]);
 }
 
 }  // namespace
@@ -314,7 +314,9 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover,
   if (!recover) document.requireNothingUnsaved();
   if (!document.recovery()) return document;
   const std::vector<std::string> edits = document.recovery()->edits;
+  const std::size_t said = document.notices().size();
   document.saveRecovery();
+  sayNotices(document, said);
   for (const std::string& edit : edits) note("edit taken from the journal and saved: " + edit);
   return document;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/case_frames.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/math.h"
@@ -31,11 +32,16 @@ std::optional<Pose> cameraFromFrame(const SessionCase& session_case, const Frame
 }
 
 [[noreturn]] void refuseCut(const SessionCase& session_case, const std::string& pose,
-                            const FrameName& frame) {
+                            const FrameName& frame, const std::string& remedy) {
   throw InputError("case " + session_case.id,
                    "the " + pose + " comes from the frames between CAMERA and " + frameText(frame) +
-                       ", which would no longer be joined: give the " + pose +
-                       " as camera_from_station first, or make a new case");
+                       ", which would no longer be joined: " + remedy);
+}
+
+[[noreturn]] void refuseCut(const SessionCase& session_case, const std::string& pose,
+                            const FrameName& frame) {
+  refuseCut(session_case, pose, frame,
+            "give the " + pose + " as camera_from_station first, or make a new case");
 }
 
 /// The pose of a station that was given in a named frame, by the new frames.
@@ -77,19 +83,104 @@ void followSeed(const SessionCase& former, SessionCase& changed) {
   if (!(changed.camera_from_station_seed == seed)) changed.camera_from_station_working.reset();
 }
 
-/// The place of the case's camera in its rig, where frames state it.
-void followRig(const Session& session, const SessionCase& former, SessionCase& changed) {
-  for (const std::string& id : casesOfRig(session, former.id)) {
-    const SessionCase& other = *session.findCase(id);
-    const auto before = linkOfFrames(former, other);
-    if (!before || !isSame(before->other_from_case, linkOfRig(former, other))) continue;
-    if (const auto after = linkOfFrames(changed, other)) {
-      const Pose& camera_from_rig = other.rig->camera_from_rig;
-      if (!(after->other_from_case == before->other_from_case))
-        changed.rig->camera_from_rig = after->other_from_case.inverse() * camera_from_rig;
-      return;
-    }
+/// Another camera of the rig of a case whose frames change.
+struct RigCamera {
+  const SessionCase* other;
+  bool by_frames;                 ///< its pose from the case comes from frames
+  std::optional<Pose> from_case;  ///< that pose by the changed frames, where it differs
+  Pose camera_from_rig;           ///< to be set
+};
+
+bool isMoving(const RigCamera& camera) { return camera.from_case.has_value(); }
+
+/// A second image by a camera that did not move; stated apart from frames.
+bool isSameCamera(const SessionCase& session_case, const SessionCase& other) {
+  return isSame(Pose(), linkOfRig(session_case, other));
+}
+
+bool isReference(const SessionCase& session_case) {
+  return isSame(Pose(), session_case.rig->camera_from_rig);
+}
+
+RigCamera rigCamera(const SessionCase& former, const SessionCase& changed,
+                    const SessionCase& other) {
+  RigCamera camera{&other, false, {}, other.rig->camera_from_rig};
+  const auto before = linkOfFrames(former, other);
+  if (!before || isSameCamera(former, other)) return camera;
+  camera.by_frames = isSame(before->other_from_case, linkOfRig(former, other));
+  if (!camera.by_frames) return camera;
+  const auto after = linkOfFrames(changed, other);
+  if (!after)
+    refuseCut(
+        changed, "pose in the rig", before->frame,
+        "link the case with " + other.id + " by another pose first, or take it out of the rig");
+  if (!(after->other_from_case == before->other_from_case)) {
+    camera.from_case = after->other_from_case;
+    camera.camera_from_rig = *camera.from_case * former.rig->camera_from_rig;
   }
+  return camera;
+}
+
+/// The moving camera from which a camera that was linked apart from frames keeps its pose; nullptr:
+/// it keeps the pose from the case. A session does not state which one it was linked with: that is
+/// the same camera, otherwise the rig's reference, otherwise the case.
+const RigCamera* keptWith(const SessionCase& former, const SessionCase& apart,
+                          const std::vector<RigCamera>& cameras) {
+  const auto moving = [&cameras](const auto& is_wanted) -> const RigCamera* {
+    const auto found = std::ranges::find_if(cameras, [&](const RigCamera& camera) {
+      return isMoving(camera) && is_wanted(*camera.other);
+    });
+    return found == cameras.end() ? nullptr : &*found;
+  };
+  if (isSameCamera(former, apart)) return nullptr;
+  if (const auto* same = moving([&](const auto& other) { return isSameCamera(other, apart); }))
+    return same;
+  return isReference(former) ? nullptr : moving(isReference);
+}
+
+/// The cameras of the case's rig by the changed frames, the case being where it was. Empty when
+/// none moves.
+std::vector<RigCamera> movedCameras(const Session& session, const SessionCase& former,
+                                    const SessionCase& changed) {
+  std::vector<RigCamera> cameras;
+  for (const std::string& id : casesOfRig(session, former.id))
+    cameras.push_back(rigCamera(former, changed, *session.findCase(id)));
+  if (std::ranges::none_of(cameras, isMoving)) return {};
+  for (RigCamera& camera : cameras) {
+    if (camera.by_frames) continue;
+    if (const RigCamera* kept = keptWith(former, *camera.other, cameras))
+      camera.camera_from_rig = *linkOfRig(*kept->other, *camera.other) * kept->camera_from_rig;
+  }
+  return cameras;
+}
+
+/// The motion of the rig frame after which the rig's reference, or else the first camera that
+/// frames link with the case, is where it was.
+Pose formerFromMoved(const SessionCase& former, const std::vector<RigCamera>& cameras) {
+  if (isReference(former)) return Pose();
+  auto fixed = std::ranges::find_if(
+      cameras, [](const RigCamera& camera) { return isReference(*camera.other); });
+  if (fixed == cameras.end()) fixed = std::ranges::find_if(cameras, isMoving);
+  return fixed->camera_from_rig.inverse() * fixed->other->rig->camera_from_rig;
+}
+
+/// The session with the changed case, and with the cameras of its rig that its frames move.
+Session withFollowingRig(const Session& session, const SessionCase& former, SessionCase changed) {
+  const std::vector<RigCamera> cameras = movedCameras(session, former, changed);
+  if (cameras.empty()) return withCase(session, std::move(changed));
+  const Pose motion = formerFromMoved(former, cameras);
+  const auto place = [&motion](const Pose& camera_from_rig, SessionCase& session_case) {
+    const Pose placed = camera_from_rig * motion;
+    if (!isSame(placed, session_case.rig->camera_from_rig))
+      session_case.rig->camera_from_rig = placed;
+  };
+  place(former.rig->camera_from_rig, changed);
+  Session next = withCase(session, std::move(changed));
+  for (const RigCamera& camera : cameras)
+    next = withChanged(next, camera.other->id, [&](SessionCase& session_case) {
+      place(camera.camera_from_rig, session_case);
+    });
+  return next;
 }
 
 }  // namespace
@@ -143,9 +234,13 @@ Session withFrames(const Session& session, const std::string& case_id,
   const SessionCase& former = knownCase(session, case_id);
   SessionCase changed = former;
   changed.frames = std::move(frames);
+  return withChangedFrames(session, std::move(changed));
+}
+
+Session withChangedFrames(const Session& session, SessionCase changed) {
+  const SessionCase& former = knownCase(session, changed.id);
   followFrames(former, changed);
-  followRig(session, former, changed);
-  return withCase(session, std::move(changed));
+  return withFollowingRig(session, former, std::move(changed));
 }
 
 }  // namespace boresight::sessions

@@ -28,9 +28,14 @@ void addLabelFrames(const std::filesystem::path& image,
 /// longer joined to the camera.
 void followFrames(const SessionCase& former, SessionCase& changed);
 
-/// The session with these transforms of a case, which followFrames(); a pose between cameras of its
-/// rig that comes from frames is taken from them again. InputError as there, for a loop, and when
-/// there is no such case.
+/// The session with `changed` for its case of that id after followFrames(). Poses between the case
+/// and other cameras of its rig that come from frames are taken from them again; poses that were
+/// stated apart stay, as does the identity of a camera that did not move. InputError as there, when
+/// the frames no longer state such a pose, and when there is no such case.
+Session withChangedFrames(const Session& session, SessionCase changed);
+
+/// The session withChangedFrames(): these transforms of a case. InputError as there, and for a
+/// loop.
 Session withFrames(const Session& session, const std::string& case_id,
                    std::vector<FrameTransform> frames);
 

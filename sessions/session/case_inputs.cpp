@@ -227,12 +227,9 @@ std::optional<Session> withInput(const Session& session, InputKind kind, const S
   if (found == nullptr || !sameInput(*found, before, kind)) return std::nullopt;
   SessionCase next = *found;
   takeInput(next, changed, kind);
+  if (kind == InputKind::kImage || kind == InputKind::kCamera)
+    return withChangedFrames(session, std::move(next));
   if (kind == InputKind::kSeed) next.camera_from_station_working.reset();
-  try {
-    if (kind == InputKind::kImage || kind == InputKind::kCamera) followFrames(*found, next);
-  } catch (const InputError&) {
-    return std::nullopt;  // its frames have changed
-  }
   return withCase(session, std::move(next));
 }
 

@@ -53,8 +53,9 @@ SessionCase withInputFile(SessionCase session_case, InputKind kind,
                           const std::filesystem::path& file, const std::string& mesh_unit = "");
 
 /// The session with one input of a case taken from `changed`, which withInputFile() returned for
-/// `before`; the rest of the case stays as it is in the session. Empty when the session has no such
-/// case, or that input of the case, or what the file was read by, differs from `before`.
+/// `before`; the rest of the case stays as it is in the session, but for poses that come from
+/// frames (withChangedFrames). Empty when the session has no such case, or that input of the case,
+/// or what the file was read by, differs from `before`. InputError of withChangedFrames.
 std::optional<Session> withInput(const Session& session, InputKind kind, const SessionCase& before,
                                  const SessionCase& changed);
 

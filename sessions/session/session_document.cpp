@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/session_document.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
@@ -50,6 +52,45 @@ std::string changeText(const Session& before, const Session& after, const fs::pa
   const JsonDocument written(journal, text);
   if (!(withChange(before, written.root()) == after)) throw differsWhenRead();
   return text;
+}
+
+/// A file that versions before 1.1 wrote next to a session NAME without .json: NAME.journal,
+/// NAME.lock. Empty for other names, and where the file may belong to a session NAME.json.
+std::optional<fs::path> formerCompanion(const fs::path& session_file, const char* extension) {
+  if (session_file.extension() == ".json") return std::nullopt;
+  fs::path owner = session_file;
+  owner += ".json";
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(owner, error))) return std::nullopt;
+  fs::path name = session_file;
+  return name += extension;
+}
+
+std::optional<fs::path> formerJournalOf(const fs::path& session_file) {
+  const auto file = formerCompanion(session_file, ".journal");
+  return file && isJournal(*file) ? file : std::nullopt;
+}
+
+std::optional<fs::path> formerLockOf(const fs::path& session_file) {
+  const auto file = formerCompanion(session_file, ".lock");
+  return file && readLockFile(*file) ? file : std::nullopt;
+}
+
+/// The journal of a session, or else that of a former version.
+fs::path journalNextTo(const fs::path& session_file) {
+  const fs::path own = journalFileOf(session_file);
+  std::error_code error;
+  if (fs::exists(own, error)) return own;
+  return formerJournalOf(session_file).value_or(own);
+}
+
+bool isOpenInAProgram(const fs::path& session_file) {
+  const auto isHeld = [](const fs::path& lock) {
+    const auto holder = readLockFile(lock);
+    return holder && !hasEnded(*holder);
+  };
+  const auto former = formerLockOf(session_file);
+  return isHeld(lockFileOf(session_file)) || (former && isHeld(*former));
 }
 
 fs::path asideName(const fs::path& journal) {
@@ -168,7 +209,9 @@ void SessionDocument::begin(Session session, const std::string& text, const std:
 void SessionDocument::takeLock() {
   try {
     lock_ = std::make_unique<FileLock>(lockFileOf(file_));
+    if (lock_->held()) respectFormerLock();
   } catch (const OutputError& error) {
+    lock_.reset();
     read_only_reason_ = "nothing can be written next to it (" + error.reason() + ")";
     return;
   }
@@ -180,15 +223,36 @@ void SessionDocument::takeLock() {
     notice("the last program did not close it: " + lock_->stale()->text());
 }
 
+/// The lock of a program of a former version counts while that has the session open.
+void SessionDocument::respectFormerLock() {
+  const auto file = formerLockOf(file_);
+  if (!file) return;
+  auto former = std::make_unique<FileLock>(*file);
+  if (!former->held())
+    lock_ = std::move(former);
+  else if (former->stale())
+    notice("the last program did not close it: " + former->stale()->text());
+}
+
+/// Renames the session's journal of a former version.
+void SessionDocument::adoptJournal(const fs::path& former) {
+  const fs::path journal = journalFileOf(file_);
+  std::error_code error;
+  fs::rename(former, journal, error);
+  if (error) throw OutputError(journal, error.message());
+  notice("the journal " + former.string() + " of a former version was renamed " + journal.string());
+}
+
 void SessionDocument::readJournalBeside() {
-  const fs::path file = journalFileOf(file_);
+  const fs::path file = journalNextTo(file_);
   std::error_code error;
   if (!fs::exists(file, error)) return;
   if (lock_ && !lock_->held()) return;  // it is in use: its edits are not left over
   try {
     Recovery left = readJournal(file, {saved_, file_sha256_, file_bytes_});
+    if (!readOnly() && file != journalFileOf(file_)) adoptJournal(file);
     if (!left.damage.empty())
-      notice("the journal " + file.string() + " is damaged: " + left.damage + "; " +
+      notice("the journal " + journalNextTo(file_).string() + " is damaged: " + left.damage + "; " +
              countText(left.edits.size(), "edit") + " before it can be recovered");
     // Its edits may have been saved, or undone.
     const bool leaves_nothing = left.edits.empty() || left.session == saved_;
@@ -201,7 +265,7 @@ void SessionDocument::readJournalBeside() {
                " of an earlier program, last at " + recovery_->time;
       });
     } else if (!readOnly()) {
-      fs::remove(file, error);
+      fs::remove(journalFileOf(file_), error);
     }
   } catch (const InputError& wrong) {
     setJournalAside("it cannot be used: " + wrong.reason());
@@ -214,8 +278,8 @@ void SessionDocument::notice(const std::string& text) {
 }
 
 void SessionDocument::setJournalAside(const std::string& why) {
-  const fs::path file = journalFileOf(file_);
-  if (readOnly()) {
+  const fs::path file = journalNextTo(file_);
+  if (readOnly() || file != journalFileOf(file_)) {
     notice("the journal " + file.string() + " was not used: " + why);
     return;
   }
@@ -226,11 +290,18 @@ void SessionDocument::setJournalAside(const std::string& why) {
   notice("the journal was set aside as " + aside.string() + ": " + why);
 }
 
-void SessionDocument::keepDamagedJournal() {
-  const fs::path aside = asideName(journalFileOf(file_));
+fs::path SessionDocument::copyJournalAside() const {
+  const fs::path journal = journalFileOf(file_);
+  const fs::path aside = asideName(journal);
   std::error_code error;
-  fs::copy_file(journalFileOf(file_), aside, error);
-  if (error) throw OutputError(aside, error.message());
+  fs::copy_file(journal, aside, error);
+  if (!error) return aside;
+  const std::string reason = error.message();
+  fs::remove(aside, error);  // cut
+  throw OutputError(aside, reason);
+}
+
+void SessionDocument::noticeKept(const fs::path& aside) {
   notice("the damaged journal is kept as " + aside.string());
 }
 
@@ -243,12 +314,16 @@ void SessionDocument::requireEditable() const {
 std::string SessionDocument::unsavedText() const {
   if (!recovery_) return "";
   const std::size_t edits = recovery_->edits.size();
-  const auto holder = readLockFile(lockFileOf(file_));
-  const bool open = readOnly() && holder && !hasEnded(*holder);
-  return countText(edits, "edit") + (edits == 1 ? " was" : " were") +
-         (open ? " not saved yet: save the session in the program that has it open"
-               : " never saved: recover with `whs decide --recover` or `whs run --recover`, or in "
-                 "the desktop program");
+  const std::string count = countText(edits, "edit") + (edits == 1 ? " was" : " were");
+  if (readOnly() && isOpenInAProgram(file_))
+    return count + " not saved yet: save the session in the program that has it open";
+  if (::access(file_.parent_path().c_str(), W_OK | X_OK) != 0)
+    return count +
+           " never saved, and the folder is read-only: recover in the desktop program and "
+           "save in another folder (Save as)";
+  return count +
+         " never saved: recover with `whs decide --recover` or `whs run --recover`, or in the "
+         "desktop program";
 }
 
 void SessionDocument::requireNothingUnsaved() const {
@@ -257,18 +332,29 @@ void SessionDocument::requireNothingUnsaved() const {
 
 void SessionDocument::saveRecovery() {
   if (!recovery_) return;
-  const std::optional<Recovery> left = recovery_;
-  const bool journals = std::exchange(journals_, false);
+  if (readOnly()) throw OutputError(file_, read_only_reason_);
+  const Recovery left = *recovery_;
+  const fs::path aside = copyJournalAside();
+  // From this journal the next program knows whether a killed one has saved the edits.
+  const bool journals = std::exchange(journals_, true);
   try {
-    acceptRecovery();
+    takeRecovery();
     save();
   } catch (...) {
+    std::error_code error;
+    fs::rename(aside, journalFileOf(file_), error);
+    journal_.reset();
     recovery_ = left;
     session_ = saved_;
     journals_ = journals;
     throw;
   }
   journals_ = journals;
+  std::error_code error;
+  if (left.damage.empty())
+    fs::remove(aside, error);  // its edits are in the file
+  else
+    noticeKept(aside);
 }
 
 void SessionDocument::acceptRecovery() {
@@ -277,7 +363,20 @@ void SessionDocument::acceptRecovery() {
     session_ = std::move(recovery_->session);
     return recovery_.reset();
   }
-  if (!recovery_->damage.empty()) keepDamagedJournal();
+  if (recovery_->damage.empty()) return takeRecovery();
+  const fs::path aside = copyJournalAside();
+  try {
+    takeRecovery();
+  } catch (...) {
+    std::error_code error;
+    fs::remove(aside, error);
+    throw;
+  }
+  noticeKept(aside);
+}
+
+/// The edits become one edit of a journal that replaces the former one.
+void SessionDocument::takeRecovery() {
   addToJournal(recovery_->session, "Recover " + countText(recovery_->edits.size(), "edit") + ": " +
                                        joined(recovery_->edits));
   session_ = std::move(recovery_->session);

@@ -92,10 +92,15 @@ class SessionDocument {
   explicit SessionDocument(const std::filesystem::path& file);
   void takeLock();
   void begin(Session session, const std::string& text, const std::string& former);
+  void respectFormerLock();
+  void adoptJournal(const std::filesystem::path& former);
   void readJournalBeside();
   void notice(const std::string& text);
   void setJournalAside(const std::string& why);
-  void keepDamagedJournal();
+  /// A copy under an unused name. OutputError.
+  std::filesystem::path copyJournalAside() const;
+  void noticeKept(const std::filesystem::path& aside);
+  void takeRecovery();
   void requireEditable() const;
   void writeJournalAgain();
   void dropJournal();

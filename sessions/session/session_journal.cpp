@@ -147,6 +147,14 @@ void JournalWriter::append(const std::string& json) {
   sum_ = std::move(sum);
 }
 
+bool isJournal(const fs::path& file) try {
+  constexpr std::size_t kBeginning = 80;
+  const std::vector<std::uint8_t> bytes = readBeginning(file, kBeginning);
+  return asText(bytes).find(kJournalFormat) != std::string_view::npos;
+} catch (const InputError&) {
+  return false;
+}
+
 Recovery readJournal(const fs::path& file, const SavedSession& saved) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxSessionBytes, FileUse::kSession);
   if (!asText(bytes).starts_with('{')) return readEdits(file, asText(bytes), saved);

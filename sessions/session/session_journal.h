@@ -53,6 +53,9 @@ class JournalWriter {
   std::size_t size_bytes_ = 0;  ///< 0: no file yet
 };
 
+/// Whether a file begins as journals do; false for a missing one.
+bool isJournal(const std::filesystem::path& file);
+
 /// The edits of a journal that the saved session lacks: none when it has all of them. An unfinished
 /// last line was never confirmed and is ignored. InputError for a missing file, one that is not a
 /// journal, and one of another state of the session file.

@@ -72,8 +72,10 @@ TEST_F(ReviewCommands, DecisionThatCannotBeSaved_IsNotLeftToBeRecovered) {
     EXPECT_EQ(folder_.read("s.boresight.journal"), left) << command[0];
     EXPECT_EQ(folder_.read("s.boresight.json"), before);
   }
+  folder_.write("s.boresight.journal", left + "damaged\n");
   EXPECT_THAT(runWhs(deciding({"--reject", "--recover"}), 0).err,
-              HasSubstr("edit taken from the journal and saved: Look at it\n"));
+              AllOf(HasSubstr("the damaged journal is kept as " + journal + ".aside-1"),
+                    HasSubstr("edit taken from the journal and saved: Look at it\n")));
   EXPECT_FALSE(std::filesystem::exists(journal));
 }
 

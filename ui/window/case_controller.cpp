@@ -500,11 +500,15 @@ void CaseController::changeInput(const QString& id, sessions::InputKind kind,
         return sessions::withInputFile(before, kind, file, mesh_unit);
       },
       [this, before = *session_case, kind, name, id](const sessions::SessionCase& changed) {
-        if (const auto after = sessions::withInput(document_.session(), kind, before, changed))
-          document_.edit(*after, tr("Use %1 for %2").arg(name, id));
-        else
-          Q_EMIT failed(tr("%1 was not used: that input of %2 has changed since it was chosen.")
-                            .arg(name, id));
+        try {
+          if (const auto after = sessions::withInput(document_.session(), kind, before, changed))
+            document_.edit(*after, tr("Use %1 for %2").arg(name, id));
+          else
+            Q_EMIT failed(tr("%1 was not used: that input of %2 has changed since it was chosen.")
+                              .arg(name, id));
+        } catch (const sessions::InputError& error) {
+          Q_EMIT failed(QString::fromUtf8(error.what()));
+        }
       },
       reportTo(this, &CaseController::failed));
 }

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -120,10 +121,12 @@ bool isListItem(std::string_view item) {
   return item.starts_with('[') || numbersIn(item).size() == 1;
 }
 
-/// The text without the marks of a YAML list, whose items have a line each: "- 0.5", "- - 1",
-/// "- [1, 0]". Unchanged where a dash may be a sign: when a line with numbers is no item.
+/// The text without the marks of a YAML list, whose items have a line each: "- 0.5", "- [1, 0]", or
+/// "- - 1" of a list in a list. Unchanged where a dash may be a sign: when a line with numbers is
+/// no item, and when the line below "- - 1" does not continue the inner list.
 std::string withoutListMarks(std::string_view text) {
   std::string unmarked;
+  std::optional<std::size_t> inner;  // where the mark of the next item must be
   int items = 0;
   for (TextLines lines(text); lines.next();) {
     std::string_view line = lines.line();
@@ -134,12 +137,16 @@ std::string withoutListMarks(std::string_view text) {
     for (skip_blanks(); line.starts_with("- "); skip_blanks()) line.remove_prefix(2);
     const std::string_view marks = whole.substr(0, whole.size() - line.size());
     if (!numbersIn(line).empty()) {
-      if (!contains(marks, "-") || !isListItem(line)) return std::string(text);
+      const std::size_t first = marks.find('-');
+      const std::size_t last = marks.rfind('-');
+      if (first == std::string_view::npos || !isListItem(line)) return std::string(text);
+      if (inner.value_or(first) != first) return std::string(text);
+      inner = last > first ? std::optional(last) : std::nullopt;
       ++items;
     }
     unmarked += std::string(line) + "\n";
   }
-  return items < 2 ? std::string(text) : unmarked;
+  return items < 2 || inner ? std::string(text) : unmarked;
 }
 
 /// Whether a comma is or may be a decimal comma: "0,5; 1,25", "0 0 1 0,2 0 0". A decimal point and

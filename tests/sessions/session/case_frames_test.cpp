@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/json/json_writer.h"
@@ -183,6 +185,117 @@ TEST_F(FramesOfACase, NewCameraReference_MovesThePosesGivenInIt) {
   EXPECT_THAT(
       folder_.message([&] { (void)withInputFile(session_case, InputKind::kCamera, camera); }),
       HasSubstr("the seed comes from the frames between CAMERA and MAST"));
+}
+
+/// Cameras of a rig on a mast: `b` has a pose 0.25 m from `a`, `c` is where the frames put it, and
+/// `d` is a second image of `a`.
+class RigOnAMast : public ::testing::Test {
+ protected:
+  RigOnAMast() {
+    for (const auto& [id, x_m] : {std::pair{"a", 1.0}, {"b", 0.0}, {"c", 7.0}, {"d", 1.0}}) {
+      SessionCase session_case;
+      session_case.id = id;
+      session_case.has_seed = false;
+      if (session_case.id != "b") session_case.frames = onMast(x_m);
+      session_ = withCase(session_, session_case);
+    }
+    Pose b_from_a;
+    b_from_a.translation_m.x() = 0.25;
+    session_ = withRigLink(session_, "a", "b", b_from_a);
+    session_ = withRigLink(session_, "a", "d", Pose());
+    session_ = withRigLink(session_, "a", "c", byFrames(session_, "a", "c"));
+  }
+  static std::vector<FrameTransform> onMast(double x_m) {
+    return {shifted(kCameraFrame, kMast, x_m)};
+  }
+  static Pose byFrames(const Session& session, const char* from, const char* to) {
+    return linkOfFrames(*session.findCase(from), *session.findCase(to))->other_from_case;
+  }
+  /// x of the pose between two cameras of the rig. m
+  static double link(const Session& session, const char* from, const char* to) {
+    return linkOfRig(*session.findCase(from), *session.findCase(to))->translation_m.x();
+  }
+  std::string refusal(const std::function<void()>& change) const { return folder_.message(change); }
+
+  inline static const FrameName kMast{"MAST", {}};
+  TemporaryFolder folder_;
+  Session session_;
+};
+
+TEST_F(RigOnAMast, NewFramesOfACamera_LeavePosesThatWereStatedApart) {
+  Session next = withFrames(session_, "a", onMast(2.0));
+  EXPECT_NEAR(link(next, "a", "b"), 0.25, 1e-9);
+  EXPECT_NEAR(link(next, "a", "c"), 5.0, 1e-9);
+  EXPECT_NEAR(link(next, "a", "d"), 0.0, 1e-9) << "the same camera";
+  next = withFrames(next, "d", onMast(2.0));
+  EXPECT_NEAR(link(next, "a", "c"), 5.0, 1e-9) << "d is where it was";
+  next = withFrames(next, "c", onMast(9.0));
+  for (const char* id : {"a", "d"}) EXPECT_NEAR(link(next, id, "c"), 7.0, 1e-9) << id;
+  EXPECT_NEAR(link(next, "a", "b"), 0.25, 1e-9);
+  EXPECT_EQ(link(withFrames(next, "b", onMast(3.0)), "a", "b"), link(next, "a", "b"));
+}
+
+/// `b` is the reference, `a` has a pose from it.
+TEST_F(RigOnAMast, NewFramesOfACameraThatIsNotTheReference_LeaveItsPoseThatWasStatedApart) {
+  Pose a_from_b;
+  a_from_b.translation_m.x() = -0.25;
+  Session session = session_;
+  for (const char* id : {"a", "b", "c"}) session = withoutRigLink(session, id);
+  session = withRigLink(session, "b", "a", a_from_b);
+  session = withRigLink(session, "a", "c", byFrames(session, "a", "c"));
+  session = withFrames(session, "a", onMast(2.0));
+  EXPECT_NEAR(link(session, "a", "b"), 0.25, 1e-9);
+  EXPECT_NEAR(link(session, "a", "c"), 5.0, 1e-9);
+  EXPECT_EQ(session.findCase("b")->rig->camera_from_rig, Pose()) << "the reference";
+}
+
+/// `d` is linked by a frame behind the mast.
+TEST_F(RigOnAMast, NewTransformBehindTheMast_MovesTheCamerasBehindItAlone) {
+  const FrameName body{"BODY", {}};
+  const auto mastAt = [&](double x_m) { return shifted(kMast, body, x_m); };
+  const auto withMast = [&](double camera_m, double mast_m) {
+    std::vector<FrameTransform> frames = onMast(camera_m);
+    frames.push_back(mastAt(mast_m));
+    return frames;
+  };
+  Session session = withFrames(session_, "a", withMast(1.0, 0.0));
+  session = withFrames(withoutRigLink(session, "d"), "d", {shifted(kCameraFrame, body, 4.0)});
+  session = withRigLink(session, "a", "d", byFrames(session, "a", "d"));
+  ASSERT_NEAR(link(session, "a", "d"), 3.0, 1e-9);
+  session = withFrames(session, "a", withMast(1.0, 0.5));
+  EXPECT_NEAR(link(session, "a", "d"), 2.5, 1e-9);
+  EXPECT_NEAR(link(session, "a", "c"), 6.0, 1e-9);
+  EXPECT_NEAR(link(session, "a", "b"), 0.25, 1e-9);
+}
+
+TEST_F(RigOnAMast, TransformOfAPoseInTheRig_IsNotRemoved) {
+  EXPECT_EQ(refusal([&] { (void)withFrames(session_, "c", {}); }),
+            "case c: the pose in the rig comes from the frames between CAMERA and MAST, which "
+            "would no longer be joined: link the case with a by another pose first, or take it out "
+            "of the rig");
+  EXPECT_THAT(refusal([&] { (void)withFrames(session_, "a", {}); }),
+              HasSubstr("link the case with c"));
+  const Session apart = withRigLink(session_, "a", "c", Pose());
+  EXPECT_TRUE(withFrames(apart, "a", {}).findCase("a")->frames.empty());
+  StatedInputs stated;
+  stated.frames = onMast(8.0);
+  EXPECT_NEAR(link(withStated(session_, "c", stated), "a", "c"), 7.0, 1e-9) << "in its place";
+}
+
+TEST_F(RigOnAMast, AnotherCameraFile_MovesThePoseInTheRig) {
+  SessionCase former = *session_.findCase("c");
+  former.frames.clear();
+  former.camera_reference = CameraReference{onMast(7.0).front().target_from_source, kMast};
+  const Session session = withCase(session_, former);
+  SessionCase changed = former;
+  changed.camera_reference->camera_from_reference.translation_m.x() = 9.0;
+  const auto next = withInput(session, InputKind::kCamera, former, changed);
+  ASSERT_TRUE(next);
+  EXPECT_NEAR(link(*next, "a", "c"), 8.0, 1e-9);
+  EXPECT_NEAR(link(*next, "a", "b"), 0.25, 1e-9);
+  changed.camera_reference.reset();
+  EXPECT_THAT(refusal([&] { (void)withInput(session, InputKind::kCamera, former, changed); }),
+              HasSubstr("the pose in the rig comes from the frames between CAMERA and MAST"));
 }
 
 /// A label that states where the end effector is in a site.

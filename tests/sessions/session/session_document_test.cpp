@@ -327,7 +327,10 @@ TEST_F(SessionDocumentTest, UnsavedEditsInAReadOnlyFolder_AreSavedUnderAnotherNa
   ::chmod(folder.path().c_str(), 0555);
   const std::string said = inChild([&] {
     stopBeingRoot();
-    SessionDocument document = SessionDocument::open(file);
+    SessionDocument document = SessionDocument::open(file, Access::kReadOnly);
+    if (document.unsavedText().find("save in another folder (Save as)") == std::string::npos)
+      return "advice: " + document.unsavedText();
+    document = SessionDocument::open(file);
     document.acceptRecovery();
     if (!document.readOnly() || !document.modified()) return std::string("no recovered edits");
     document.discardChanges();
@@ -365,6 +368,117 @@ TEST_F(SessionDocumentTest, SessionsNextToEachOther_HaveTheirOwnCompanions) {
   EXPECT_EQ(SessionDocument::open(file).recovery()->edits.size(), 2u);
 }
 
+/// Journal and lock of a session without ".json" as former versions named them.
+struct SessionOfAFormerVersion : SessionDocumentTest {
+  const std::filesystem::path plain = folder / "s";
+  SessionOfAFormerVersion() {
+    SessionDocument::create(plain, first);
+    { SessionDocument::open(plain).apply(edited(first, 1), "Edit 1"); }
+    std::filesystem::rename(folder / "s-journal", folder / "s.journal");
+  }
+  void expectUntouched(const std::string& journal) const {
+    EXPECT_EQ(folder.read("s.journal"), journal);
+    EXPECT_FALSE(std::filesystem::exists(folder / "s-journal"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "s-lock"));
+  }
+};
+
+TEST_F(SessionOfAFormerVersion, UnsavedEdits_AreOffered) {
+  const std::string journal = folder.read("s.journal");
+  const SessionDocument read = SessionDocument::open(plain, Access::kReadOnly);
+  ASSERT_TRUE(read.recovery());
+  EXPECT_THAT(read.unsavedText(), HasSubstr("never saved"));
+  expectUntouched(journal);
+  (void)inChild([&]() -> std::string {
+    const FileLock lock(folder / "s.lock");
+    ::kill(::getpid(), SIGKILL);
+    return "";
+  });
+  SessionDocument document = SessionDocument::open(plain);
+  EXPECT_THAT(document.notices(), ElementsAre(HasSubstr("did not close it: process"),
+                                              HasSubstr("s.journal of a former version")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.lock"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+  EXPECT_EQ(folder.read("s-journal"), journal);
+  ASSERT_TRUE(document.recovery());
+  document.acceptRecovery();
+  document.save();
+  EXPECT_TRUE(readSessionFile(plain).session == edited(first, 1));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s-journal"));
+}
+
+TEST_F(SessionOfAFormerVersion, LockThatItHolds_IsRespected) {
+  const std::string journal = folder.read("s.journal");
+  const FileLock lock(folder / "s.lock");
+  const SessionDocument document = SessionDocument::open(plain);
+  EXPECT_THAT(document.readOnlyReason(), HasSubstr("it is open already: process"));
+  EXPECT_FALSE(document.recovery());
+  expectUntouched(journal);
+  EXPECT_THAT(SessionDocument::open(plain, Access::kReadOnly).unsavedText(),
+              HasSubstr("save the session in the program that has it open"));
+}
+
+TEST_F(SessionOfAFormerVersion, FilesOfOthers_AreLeft) {
+  std::string journal = folder.read("s.journal");
+  folder.write("s.lock", "of another kind of program");
+  writeSessionFile(file, first);  // s.json
+  EXPECT_FALSE(SessionDocument::open(plain).recovery()) << "its journal is that of s.json";
+  std::filesystem::remove(file);
+  for (const char* text : {"no journal", journal.c_str()}) {
+    folder.write("s.journal", text);
+    writeSessionFile(plain, sessionOf("another"));
+    const SessionDocument document = SessionDocument::open(plain);
+    EXPECT_FALSE(document.readOnly());
+    EXPECT_FALSE(document.recovery());
+    EXPECT_EQ(folder.read("s.journal"), text);
+  }
+  EXPECT_EQ(folder.read("s.lock"), "of another kind of program");
+}
+
+TEST_F(SessionDocumentTest, SavedRecoveryOfADamagedJournal_KeepsOneCopyOfIt) {
+  leaveUnsaved(3);
+  std::string journal = folder.read("s.journal");
+  journal[journal.find("Edit 2")] = 'e';
+  folder.write("s.journal", journal);
+  SessionDocument document = SessionDocument::open(file);
+  const std::string before = folder.read("s.json");
+  const auto said = document.notices();
+  folder.write("s.json", before + " ");  // by another program
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_THROW(document.saveRecovery(), OutputError);
+    EXPECT_EQ(folder.read("s.journal"), journal);
+    EXPECT_FALSE(std::filesystem::exists(folder / "s.journal.aside-1"));
+    EXPECT_EQ(document.notices(), said);
+  }
+  folder.write("s.json", before);
+  document.saveRecovery();
+  EXPECT_THAT(document.notices().back(), HasSubstr("damaged journal is kept as"));
+  EXPECT_EQ(folder.read("s.journal.aside-1"), journal);
+  EXPECT_TRUE(readSessionFile(file).session == edited(first, 1));
+}
+
+/// Killed before the file has its name, and (as if) before the journal is removed.
+TEST_F(SessionDocumentTest, KilledWhileItSavesARecovery_OffersItsEditsOrKnowsThemAsSaved) {
+  leaveUnsaved(3);
+  (void)inChild([&]() -> std::string {
+    SessionDocument document = SessionDocument::open(file);
+    limitFileSize(std::filesystem::file_size(file) - 1);
+    std::signal(SIGXFSZ, SIG_DFL);  // at the writing of the file
+    document.saveRecovery();
+    return "";
+  });
+  {
+    const SessionDocument document = SessionDocument::open(file);
+    ASSERT_TRUE(document.recovery());
+    EXPECT_TRUE(document.recovery()->session == edited(first, 3));
+  }
+  writeSessionFile(file, edited(first, 3));
+  const SessionDocument document = SessionDocument::open(file);
+  EXPECT_FALSE(document.recovery());
+  EXPECT_THAT(document.notices(), testing::Each(Not(HasSubstr("journal"))));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+}
+
 TEST_F(SessionDocumentTest, SavedRecovery_IsWholeOrHasNotHappened) {
   leaveUnsaved(2);
   const std::string journal = folder.read("s.journal");
@@ -378,6 +492,7 @@ TEST_F(SessionDocumentTest, SavedRecovery_IsWholeOrHasNotHappened) {
   folder.write("s.json", before);
   document.saveRecovery();
   EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.journal.aside-1"));
   EXPECT_TRUE(readSessionFile(file).session == edited(first, 2));
   document.apply(edited(first, 3), "x");
   EXPECT_TRUE(std::filesystem::exists(folder / "s.journal"));

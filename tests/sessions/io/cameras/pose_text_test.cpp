@@ -129,7 +129,11 @@ TEST(ParsePose, DashesOfAYamlList_AreNoSigns) {
       "- - 1.0\n  - 0.0\n  - 0\n  - 0.5\n- [0, 1, 0, -1]\n- [0, 0, 1, 2]\n- [0, 0, 0, 1]\n";
   EXPECT_EQ(parsePose(matrix, guessReading(matrix)).problem, "");
   for (const char* text : {"- 1 2 3\n- 4 5 6\n", "- 1 2 3 4 5 6", "- 1\n- 2\n3\n4\n5\n- 6",
-                           "- 1\n- 2\n- 3\n- 4\n- 5\n-[6]", "- 1\n- 2\n- 3\n- 4\n- 5\n- [- 6]"})
+                           "- 1\n- 2\n- 3\n- 4\n- 5\n-[6]", "- 1\n- 2\n- 3\n- 4\n- 5\n- [- 6]",
+                           "- 1\n- 2\n- 3\n- 4\n- - 5\n- 6\n", "- 1\n- 2\n- 3\n- 4\n- 5\n- - 6",
+                           "- - 1\n- - 2\n- - 3\n- - 4\n- - 5\n- - 6\n",
+                           "- - 1\n  - 2\n  - - 3\n- - 4\n  - 5\n  - 6\n",
+                           "  - 1\n  - - 2\n  - 3\n- - 4\n  - 5\n  - 6\n"})
     EXPECT_THAT(parsePose(text, {}).problem, testing::StartsWith("A sign is separate")) << text;
 }
 
