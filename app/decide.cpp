@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <exception>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "app/batch_output.h"
 #include "app/commands.h"
@@ -82,6 +85,22 @@ std::optional<Session> validatedCase(const Session& session, const DecideArgumen
                              waivers, arguments.signature(), convergence.seeds);
 }
 
+/// Checks of the result that is rejected: of its last run, else of its annotations. None, with a
+/// note, where there is no pose or it cannot be read: it is rejected all the same.
+std::vector<sessions::Check> checksOfRejected(const Session& session, const std::string& id) {
+  const auto source = session.lastRunOf(id) != nullptr ? PoseSource::kRun : PoseSource::kAnnotation;
+  if (source == PoseSource::kAnnotation && !session.annotations.contains(id)) return {};
+  try {
+    const auto subject =
+        sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)), source);
+    return sessions::checkPose(subject,
+                               sessions::checkLimits(session.review.preset, session.review.limits));
+  } catch (const std::exception& error) {
+    note("rejected without checks: " + std::string(error.what()));
+    return {};
+  }
+}
+
 std::optional<Session> decided(const Session& session, const DecideArguments& arguments,
                                const std::stop_token& stop) {
   if (arguments.validate) return validatedCase(session, arguments, stop);
@@ -89,7 +108,8 @@ std::optional<Session> decided(const Session& session, const DecideArguments& ar
   if (arguments.approve)
     return sessions::approved(session, arguments.case_id, run, arguments.signature());
   if (arguments.reject)
-    return sessions::rejected(session, arguments.case_id, run, {}, arguments.signature());
+    return sessions::rejected(session, arguments.case_id, run,
+                              checksOfRejected(session, arguments.case_id), arguments.signature());
   return sessions::reopened(session, arguments.case_id, arguments.signature());
 }
 

@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "sessions/session/session_document.h"
+#include "sessions/session/session_file.h"
 #include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/matchers.h"
@@ -96,6 +97,15 @@ TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
   folder_.write("tampered.json", text);
   EXPECT_THAT(runWhs({"verify", folder_ / "tampered.json", "--no-run"}, 6).out,
               HasSubstr("WRONG       checksum"));
+}
+
+TEST_F(ReviewCommands, Rejection_KeepsTheChecksOfTheRun) {
+  runWhs(deciding({"--reject"}), 0);
+  EXPECT_FALSE(jsonOf(session_)["decisions"][0]["checks"].empty());
+  for (const auto& run : std::filesystem::directory_iterator(sessions::runsFolderOf(session_)))
+    std::filesystem::remove(run.path());
+  EXPECT_THAT(runWhs(deciding({"--reject"}), 0).err, HasSubstr("rejected without checks: "));
+  EXPECT_TRUE(jsonOf(session_)["decisions"][1].value("checks", nlohmann::json::array()).empty());
 }
 
 /// The other differences that are found: ValidatedPose.ASessionEditedByHandIsNotSigned and others.

@@ -144,7 +144,8 @@ bool DecisionForm::overrules(Act act) {
 
 bool DecisionForm::decide(Act act, bool then_next) {
   const QString id = fromText(controller_.caseId());
-  const QString following = then_next && next_ ? next_() : QString();  // as things are listed now
+  // As the cases are listed now.
+  const std::optional<QString> following = then_next && next_ ? next_() : std::nullopt;
   const QString reason = controller_.obstacle(act, signature());
   if (!reason.isEmpty()) return refuse(sentence(reason));
   if (overrules(act))
@@ -152,9 +153,9 @@ bool DecisionForm::decide(Act act, bool then_next) {
                       .arg(id, fromText(controller_.reviewStatus().decision->by)));
   if (!controller_.decide(act, signature())) return refuse(tr("No decision was stored."));
   ui_.decisionComment->clear();  // the next decision has a comment of its own
-  const bool last = then_next && following.isEmpty();
+  const bool last = following && following->isEmpty();
   Q_EMIT decided(doneText(act).arg(id) + (last ? tr(" No other case is undecided.") : QString()));
-  if (!following.isEmpty()) Q_EMIT nextRequested(following);
+  if (following && !last) Q_EMIT nextRequested(*following);
   return true;
 }
 

@@ -23,8 +23,9 @@ class DecisionForm : public QWidget {
 
  public:
   using Act = ReviewController::Act;
-  /// Id of the undecided case to show after the shown one, or empty.
-  using Next = std::function<QString()>;
+  /// Id of the undecided case to show after the shown one; empty: there is none; nullopt: none was
+  /// found.
+  using Next = std::function<std::optional<QString>()>;
 
   explicit DecisionForm(ReviewController& controller);
 

@@ -200,12 +200,12 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
     case Act::kValidate:
       return sessions::validated(session, *subject_, checks_, waivers(), who, convergence_.seeds);
     case Act::kApprove:
-      return sessions::approved(session, id, shownRun(), who);
+      return sessions::approved(session, id, seen(act), who);
     case Act::kReject: {
-      // The decision names the run: checks of annotations are not those of its pose.
-      const bool of_run = current_ && source_ == PoseSource::kRun;
-      return sessions::rejected(session, id, shownRun(),
-                                of_run ? checks_ : std::vector<sessions::Check>(), who);
+      // A decision that names a run has the checks of its pose, not those of the annotations.
+      const bool of_result = current_ && (source_ == PoseSource::kRun || !hasRun());
+      return sessions::rejected(session, id, seen(act),
+                                of_result ? checks_ : std::vector<sessions::Check>(), who);
     }
     case Act::kTakeBack:
       return sessions::reopened(session, id, who);
@@ -242,6 +242,13 @@ std::string ReviewController::concerned(Act act) const {
   throw std::logic_error("no such act");
 }
 
+/// The run that the operator has seen for an act. One whose trace is reported as missing can only
+/// be rejected.
+std::string ReviewController::seen(Act act) const {
+  if (act == Act::kReject) return shownRun();
+  return state_.snapshot() ? state_.snapshot()->digest : std::string();
+}
+
 /// A pose is validated with its checks, and approved with what it was validated by.
 QString ReviewController::unready(Act act) const {
   const QString id = fromText(caseId());
@@ -258,7 +265,7 @@ QString ReviewController::unready(Act act) const {
 /// Only a run that is shown can be decided on.
 QString ReviewController::unseen(Act act) const {
   const std::string run = concerned(act);
-  if (run.empty() || run == shownRun()) return {};
+  if (run.empty() || run == seen(act)) return {};
   const QString id = fromText(caseId());
   return state_.snapshot()
              ? tr("the image shows another run than the decision is on: show the last run of %1")

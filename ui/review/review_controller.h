@@ -44,7 +44,7 @@ class ReviewController : public QObject {
   bool hasAnnotations() const;
   /// The digest of the case's last run, which can be judged; or empty.
   std::string runDigest() const;
-  /// The digest of the run that the operator sees, or empty.
+  /// The digest of the run that the operator sees or that is reported as missing, or empty.
   std::string shownRun() const { return state_.shownRun(); }
   sessions::PoseSource source() const { return source_; }
   void setSource(sessions::PoseSource source);
@@ -128,6 +128,7 @@ class ReviewController : public QObject {
   bool isActive() const { return in_sight_ || follows_runs_; }
   QString settled(Act act) const;
   std::string concerned(Act act) const;
+  std::string seen(Act act) const;
   QString unready(Act act) const;
   QString unseen(Act act) const;
   void editSettings(const sessions::ReviewSettings& settings, const QString& text);

@@ -16,7 +16,13 @@ class StatedNumber {
   StatedNumber(QDoubleSpinBox& box, double box_per_unit, const std::optional<double>& stated,
                double assumed = 0.0)
       : box_(&box), box_per_unit_(box_per_unit), stated_(stated) {
-    box.setValue(box_per_unit * stated.value_or(assumed));
+    const double value = box_per_unit * stated.value_or(assumed);
+    box.setValue(value);
+    // A small number must not be rounded to the one that means "not stated".
+    while (stated && isNone() && value > box.minimum() && box.decimals() < kMostDecimals) {
+      box.setDecimals(box.decimals() + 1);
+      box.setValue(value);
+    }
     shown_ = box.value();
   }
 
@@ -24,11 +30,16 @@ class StatedNumber {
   /// Empty: not stated. A box with a special text states nothing at its minimum.
   std::optional<double> value() const {
     if (!isChanged()) return stated_;
-    const bool none = !box_->specialValueText().isEmpty() && box_->value() == box_->minimum();
-    return none ? std::nullopt : std::optional(box_->value() / box_per_unit_);
+    return isNone() ? std::nullopt : std::optional(box_->value() / box_per_unit_);
   }
 
  private:
+  static constexpr int kMostDecimals = 15;
+
+  bool isNone() const {
+    return !box_->specialValueText().isEmpty() && box_->value() == box_->minimum();
+  }
+
   QDoubleSpinBox* box_ = nullptr;
   double box_per_unit_ = 1.0;
   std::optional<double> stated_;

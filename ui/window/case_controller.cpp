@@ -494,7 +494,7 @@ void CaseController::changeInput(const QString& id, sessions::InputKind kind,
   if (!session_case) return;
   const QString name = fromText(file.filename().string());
   of_document_.ofCase(
-      changing_[{session_case->id, kind}], session_case->id,
+      changing_[{document_.openings(), session_case->id, kind}], session_case->id,
       {tr("%1 for %2").arg(name, id), tr("choose %1 for %2 again").arg(name, id)},
       [before = *session_case, kind, file, mesh_unit](const std::stop_token&) {
         return sessions::withInputFile(before, kind, file, mesh_unit);
@@ -566,6 +566,7 @@ void CaseController::showRun(const std::string& digest) {
   if (digest.empty()) return;  // findRun would take it for any run
   const sessions::RunRecord* found = sessions::findRun(document_.session(), openId(), digest);
   if (!found || run_.state() == RunState::kWorking) return;
+  const bool is_last = sessions::lastRunDigest(document_.session(), openId()) == digest;
   tasks_.replace(
       showing_run_, [run = *found](const std::stop_token&) { return readRun(run); },
       [this](ViewState::SnapshotPtr snapshot) {
@@ -573,7 +574,13 @@ void CaseController::showRun(const std::string& digest) {
         state_.setSnapshot(std::move(snapshot));
         state_.setCursor(atEndOf(*state_.snapshot()));
       },
-      reportTo(this, &CaseController::failed));
+      [this, digest, is_last](const QString& problem) {
+        // The last run can be rejected where it is reported as missing. One that is shown stays.
+        if (is_last && state_.currentCase() && !state_.snapshot() &&
+            run_.state() != RunState::kWorking)
+          state_.setMissingRun({digest, problem});
+        Q_EMIT failed(problem);
+      });
 }
 
 }  // namespace boresight::ui

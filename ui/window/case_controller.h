@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -158,8 +159,9 @@ class CaseController : public QObject {
   TaskKind judging_;
   TaskKind reading_run_;
   TaskKind showing_run_;
-  /// Of each input: another file of one drops a change of it that is under way.
-  std::map<std::pair<std::string, sessions::InputKind>, TaskKind> changing_;
+  /// By opening of a session, case and input. Another file of an input drops a change of it that is
+  /// under way; a change in a session that is left reports that it was not used.
+  std::map<std::tuple<int, std::string, sessions::InputKind>, TaskKind> changing_;
   QString load_problem_;
   std::optional<sessions::InputConcern> input_concern_;
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have

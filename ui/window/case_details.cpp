@@ -5,6 +5,7 @@
 #include <exception>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <QCoreApplication>
 
@@ -61,6 +62,7 @@ CaseRow caseRow(const sessions::Session& session, const std::string& id,
   row.state = caseStateOf(status.state);
   const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
   row.stale = !status.outdated.empty() || (of_run && isStale(session, session_case, known));
+  row.awaits_approval = status.awaits_approval;
   row.detail = detailOf(session, id, status);
   return row;
 }
@@ -141,13 +143,15 @@ CaseDetails::CaseDetails(TaskRunner& tasks, QObject* parent) : QObject(parent), 
 void CaseDetails::setSession(const sessions::Session& session) {
   const std::set<std::string> ids = sessions::differenceOf(session_, session).cases;
   session_ = session;
-  if (ids.size() < session.cases.size()) {
-    pictures_.insert(pictures_.end(), ids.begin(), ids.end());
-  } else {  // another session: in its order
+  std::vector<std::string> to_read(ids.begin(), ids.end());
+  if (ids.size() >= session.cases.size()) {  // another session: in its order
     pictures_.clear();
-    for (const auto& session_case : session.cases) pictures_.push_back(session_case->id);
+    results_.clear();
+    to_read.clear();
+    for (const auto& session_case : session.cases) to_read.push_back(session_case->id);
   }
-  results_.insert(results_.end(), pictures_.begin(), pictures_.end());
+  for (std::deque<std::string>* ids_to_read : {&pictures_, &results_})
+    ids_to_read->insert(ids_to_read->end(), to_read.begin(), to_read.end());
   if (!reading_) readNext();
 }
 

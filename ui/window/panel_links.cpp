@@ -219,7 +219,9 @@ void PanelLinks::askForJudgement() {
   if (!session_case) return;
   const std::string id = session_case->id;
   const CaseOpening seen = parts_.state.opening();
-  JudgementDialog dialog(*session_case, docks_.inputs.window());
+  JudgementDialog dialog(*session_case,
+                         sessions::requirementOf(parts_.document.session(), *session_case),
+                         docks_.inputs.window());
   if (dialog.exec() != QDialog::Accepted || !isStillOpen(seen)) return;
   const auto state = [&dialog](sessions::SessionCase& changed) {
     changed.camera_from_end_effector = dialog.cameraFromEndEffector();

@@ -528,6 +528,7 @@ bool SessionFiles::mayLoseRuns() {
   noteInLog(box);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   const int answer = box.exec();
+  if (answer == QMessageBox::Cancel) return false;  // also where they were stored meanwhile
   if (box.clickedButton() == elsewhere && saveAs()) finishStoring();
   return answer == QMessageBox::Discard || parts_.store.waiting().isEmpty();
 }

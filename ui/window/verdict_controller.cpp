@@ -35,7 +35,8 @@
 namespace boresight::ui {
 namespace {
 
-constexpr int kMostAsked = 64;  ///< cases whose decision is looked at for the next case
+/// Cases whose decision is looked at for the next case, as their rows do not state it yet.
+constexpr int kMostAsked = 64;
 
 QString decisionText(const sessions::ReviewStatus& status) {
   if (!status.holds()) return {};
@@ -196,7 +197,7 @@ Situation VerdictController::situation() const {
 
 void VerdictController::update() {
   told_ = parts_.state.opening();
-  has_next_ = !nextCase().isEmpty();
+  has_next_ = !nextCase().value_or(QString()).isEmpty();
   const Situation now = situation();
   docks_.remedies.setTried(now.tried);
   bar_.setVerdict(verdictOf(now));
@@ -269,7 +270,7 @@ void VerdictController::perform(Step step) {
     case Step::kReport:
       return exportRequested(step);
     case Step::kNextCase:
-      if (const QString next = nextCase(); !next.isEmpty()) parts_.cases.chooseCase(next);
+      if (const auto next = nextCase(); next && !next->isEmpty()) parts_.cases.chooseCase(*next);
       return;
     case Step::kFirstDifference:
       workspaces_.show(Workspace::kOnboard);
@@ -342,23 +343,33 @@ void VerdictController::askForUncertainty() {
     Q_EMIT failed(leftText(seen));
 }
 
+std::optional<QString> VerdictController::nextCase() const {
+  if (!docks_.queue.isInSight()) return nextUndecided();
+  const QString open = docks_.queue.nextOpen();
+  // An undecided case may be filtered out, or was not run.
+  if (open.isEmpty() && nextUndecided() != QString()) return std::nullopt;
+  return open;
+}
+
 /// By the list of cases, which is kept for each edit: of tens of thousands only some are asked for
 /// their decision.
-QString VerdictController::nextCase() const {
-  if (docks_.queue.isInSight()) return docks_.queue.nextOpen();
+std::optional<QString> VerdictController::nextUndecided() const {
   const std::vector<CaseRow>& rows = docks_.cases.model().rows();
   const std::size_t count = rows.size();
   const int shown = docks_.cases.model().rowOf(parts_.cases.caseId());
   const std::size_t at = shown < 0 ? count : static_cast<std::size_t>(shown);
   int asked = 0;
-  for (std::size_t i = 1; i < count && asked < kMostAsked; ++i) {
+  for (std::size_t i = 1; i < count; ++i) {
     const CaseRow& row = rows[(at + i) % count];
-    if (row.state == CaseState::kValidated || row.state == CaseState::kRejected) continue;
-    ++asked;  // it may await its second person, or not be known yet
+    if (row.state == CaseState::kValidated || row.state == CaseState::kRejected ||
+        row.awaits_approval)
+      continue;
+    // Its row may not be known yet.
     if (!sessions::reviewStatusOf(parts_.document.session(), row.id.toStdString()).holds())
       return row.id;
+    if (++asked == kMostAsked) return std::nullopt;
   }
-  return {};
+  return QString();
 }
 
 void VerdictController::askForDecision(ReviewController::Act act) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <QObject>
+#include <QString>
 #include <QTimer>
 
 #include "ui/review/review_controller.h"
@@ -31,8 +34,8 @@ class VerdictController : public QObject {
   /// Updates the bar; called automatically after changes, once per event loop.
   void update();
   /// The undecided case after the shown one: in the queue's order while the queue is visible, else
-  /// in the session's order, cyclically; empty when there is none.
-  QString nextCase() const;
+  /// in the session's order, cyclically. Empty when there is none; nullopt when none was found.
+  std::optional<QString> nextCase() const;
 
  public Q_SLOTS:
   void perform(boresight::ui::Step step);
@@ -48,6 +51,7 @@ class VerdictController : public QObject {
   void failed(const QString& message);
 
  private:
+  std::optional<QString> nextUndecided() const;
   void follow();
   AnnotationSituation annotationSituation() const;
   ReviewSituation reviewSituation() const;

@@ -328,6 +328,10 @@ TEST_F(QueuePanelTest, RunThatIsNotShown_IsNeitherApprovedNorRejectedWithItsAnno
     EXPECT_FALSE(review().decide(Act::kApprove, {"Bob", "so it is"}));
     EXPECT_EQ(obstacle(Act::kTakeBack), QString()) << "it asks for no look at the run";
   }
+  window_.state().setMissingRun({shown_before->digest, QStringLiteral("It is gone.")});
+  EXPECT_TRUE(test::has(obstacle(Act::kApprove), "shows no run")) << "only reported";
+  EXPECT_FALSE(review().decide(Act::kApprove, {"Bob", "so it is"}));
+  EXPECT_EQ(obstacle(Act::kReject), QString());
   window_.state().setSnapshot(shown_before);
   edit([this](auto& session) {
     session.decisions.clear();

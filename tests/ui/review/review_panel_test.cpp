@@ -25,6 +25,7 @@
 #include "ui/state/document.h"
 #include "ui/style/tokens.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/verdict_controller.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/job_strip.h"
 #include "ui/workspaces/verdict_bar.h"
@@ -323,6 +324,15 @@ TEST_F(ReviewPanelTest, AnnotatedPose_CanBeJudgedAndItsChangeIsReported) {
   EXPECT_FALSE(controller().isCurrent());
 }
 
+TEST_F(ReviewPanelTest, RejectedAnnotationOfACaseWithoutARun_KeepsItsChecks) {
+  open(withAnnotations(exampleSession(), firstCase(),
+                       *test::annotatedExample(0.2).annotations.at(firstCase())));
+  ASSERT_TRUE(checked());
+  ASSERT_EQ(controller().source(), sessions::PoseSource::kAnnotation);
+  ASSERT_TRUE(controller().decide(ReviewController::Act::kReject, {"Ada", "too coarse"}));
+  EXPECT_EQ(document_.session().decisions.back().checks.size(), controller().checks().size());
+}
+
 TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   openRun();
   hands().click("openLimits");
@@ -526,6 +536,39 @@ TEST_F(ReviewWindowTest, BarResultChecksAndReport_StateOneQuality) {
   ASSERT_NE(check, checks.end());
   EXPECT_EQ(check->figure, worst->found);
   EXPECT_EQ(bar.verdict().tone == VerdictTone::kCaution, countOf(checks, CheckState::kFailed) > 0);
+}
+
+/// At most 64 cases are asked for their decision.
+TEST_F(ReviewWindowTest, CaseBehindManyThatAwaitTheirSecondPerson_IsTheNext) {
+  sessions::Session session = exampleSession();
+  session.review.second_person = true;
+  for (int i = 0; i < 70; ++i) {
+    sessions::SessionCase copy = *exampleSession().cases[1];
+    copy.id = "copy-" + std::to_string(i);
+    session = withCase(session, copy);
+  }
+  sessions::Decision awaiting;
+  awaiting.verdict = sessions::Verdict::kValidated;
+  awaiting.by = "Ada";
+  awaiting.comment = "looked at it";
+  awaiting.time = "2026-01-31T23:59:59Z";
+  awaiting.pose.emplace().source = sessions::PoseSource::kAnnotation;
+  const auto validate = [&awaiting](sessions::Session& changed, const std::string& id) {
+    awaiting.case_id = id;
+    awaiting.input_fingerprint = sessions::inputFingerprint(changed, id, "");
+    changed.decisions.push_back(awaiting);
+    ASSERT_TRUE(sessions::reviewStatusOf(changed, id).awaits_approval);
+  };
+  const std::string last = "copy-69";
+  for (const auto& each : exampleSession().cases) validate(session, each->id);
+  for (int i = 0; i < 69; ++i) validate(session, "copy-" + std::to_string(i));
+  open(session);
+  const auto& verdicts = *window_.findChild<VerdictController*>();
+  EXPECT_TRUE(wait([&] { return verdicts.nextCase() == fromText(last); }));
+  session = window_.document().session();
+  validate(session, last);
+  ASSERT_TRUE(window_.document().edit(session, QStringLiteral("Validate")));
+  EXPECT_TRUE(wait([&] { return verdicts.nextCase() == QString(); })) << "none is left";
 }
 
 /// Measuring a pose again can take as long as its convergence test.

@@ -82,6 +82,16 @@ TEST_F(ChangeInputTest, AnotherSessionDuringTheReading_DoesNotGetTheCase) {
   EXPECT_TRUE(window_.document().session() == other);
 }
 
+TEST_F(ChangeInputTest, SameInputChosenInAnotherSession_DoesNotDropTheReportOnTheFirst) {
+  const std::filesystem::path mesh = shown().parts.front().source.mesh;
+  change(InputKind::kMesh, mesh, "mm");
+  newFile();
+  ASSERT_TRUE(window_.document().create(file_, test::withoutSearch(test::exampleSession())));
+  change(InputKind::kMesh, mesh, "mm");
+  EXPECT_TRUE(wait([&] { return window_.lastMessage().contains(QLatin1String("not used")); }));
+  EXPECT_TRUE(wait([&] { return shown().parts.front().source.mesh_unit == "mm" && resting(); }));
+}
+
 TEST_F(ChangeInputTest, UnreadableFile_ChangesNothing) {
   const auto before = window_.document().session();
   change(InputKind::kSeed, folder_.write("no.json", "{"));

@@ -338,6 +338,11 @@ TEST_F(ShownCaseTest, RunWhoseTraceIsMissing_IsReportedWhereTheRunWouldBe) {
   const auto verdict = [this] { return window_.findChild<VerdictBar*>()->verdict(); };
   EXPECT_TRUE(wait([&] { return verdict().head == QStringLiteral("There is no run to show."); }));
   EXPECT_EQ(verdict().sentence, window_.state().missingRun()->problem);
+  // After another run that fails at its start it is reported again where it is asked for.
+  window_.state().setMissingRun({{}, QStringLiteral("It did not start.")});
+  window_.cases().showRun(run.digest);
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(window_.state().shownRun(), run.digest) << "so that it can be rejected";
   choose(b());
   EXPECT_FALSE(window_.state().missingRun());
   ASSERT_TRUE(showsCase(b()));
@@ -481,6 +486,29 @@ TEST_F(ShownCaseTest, RunWhoseFolderDoesNotAnswer_IsNotWaitedForWithoutAWord) {
   EXPECT_TRUE(test::has(told[1], "are not stored"));
   writer.gate.set_value();
   EXPECT_TRUE(wait([&] { return session().runs.size() == 1; }));
+}
+
+/// The runs are stored while the operator reads the question: Cancel stays in the session.
+TEST_F(ShownCaseTest, CancelAfterTheRunWasStoredMeanwhile_StaysInTheSession) {
+  openExample();
+  ASSERT_TRUE(window_.document().save());
+  HeldReader writer(window_.store().runner());
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.store().isStoring(); }));
+  QStringList told;
+  bool released = false;
+  {
+    const test::ModalAnswer<QMessageBox> answer{[&](QMessageBox& box) {
+      if (!told.contains(box.text())) told << box.text();
+      if (auto* leave = box.findChild<QAbstractButton*>(QStringLiteral("leave")))
+        return leave->click();
+      if (!std::exchange(released, true)) writer.gate.set_value();
+      if (window_.store().waiting().isEmpty()) box.button(QMessageBox::Cancel)->click();
+    }};
+    EXPECT_FALSE(window_.findChild<SessionFiles*>()->mayLeave());
+  }
+  ASSERT_EQ(told.size(), 2) << "and no further question";
+  EXPECT_TRUE(test::has(told[1], "are not stored"));
 }
 
 TEST_F(ShownCaseTest, ListOfCases_IsThatOfTheSessionAlsoWithoutCases) {

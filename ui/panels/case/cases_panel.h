@@ -34,8 +34,9 @@ struct CaseRow {
   QString station;  ///< may be empty
   QImage thumbnail;
   CaseState state = CaseState::kNew;
-  bool stale = false;  ///< outdated: its last run was made with other inputs or options
-  QString detail;      ///< e.g. why it failed, for the tooltip
+  bool stale = false;            ///< outdated: its last run was made with other inputs or options
+  bool awaits_approval = false;  ///< validated by one person where two are required
+  QString detail;                ///< e.g. why it failed, for the tooltip
   /// Errors against the truth, if it is known and the run has a pose.
   std::optional<double> normal_mm;
   std::optional<double> lateral_mm;

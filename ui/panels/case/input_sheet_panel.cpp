@@ -35,36 +35,46 @@ InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* 
   focal_ = {*ui_.focal, kPercent, stated.focal_relative, former_.calibration.focal_relative};
   centre_px_ = {*ui_.principalPoint, 1.0, stated.principal_point_px,
                 former_.calibration.principal_point_px};
+  if (former_calibration_ && !former_.calibration_derived) {
+    const QString assumed = tr("Assumed. Changing it, or ticking the group again, states it");
+    if (!stated.focal_relative) ui_.focal->setToolTip(assumed);
+    if (!stated.principal_point_px) ui_.principalPoint->setToolTip(assumed);
+  }
+  connect(ui_.cameraStated, &QGroupBox::toggled, this, [this] { camera_toggled_ = true; });
 }
 
 std::optional<double> InputSigmasDialog::meshScaleSigma() const {
   return ui_.meshStated->isChecked() ? mesh_scale_.value() : std::nullopt;
 }
 
-/// Checking the group without changing a member states both as they are assumed.
 std::optional<sessions::StatedCalibration> InputSigmasDialog::calibrationSigma() const {
   if (former_.calibration_derived) return former_calibration_;
   if (!ui_.cameraStated->isChecked()) return std::nullopt;
-  const sessions::StatedCalibration stated{focal_.value(), centre_px_.value()};
-  if (stated != sessions::StatedCalibration()) return stated;
-  return sessions::StatedCalibration{former_.calibration.focal_relative,
-                                     former_.calibration.principal_point_px};
+  sessions::StatedCalibration stated{focal_.value(), centre_px_.value()};
+  if (!camera_toggled_) return stated;
+  if (!stated.focal_relative) stated.focal_relative = former_.calibration.focal_relative;
+  if (!stated.principal_point_px)
+    stated.principal_point_px = former_.calibration.principal_point_px;
+  return stated;
 }
 
-JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)
+JudgementDialog::JudgementDialog(const sessions::SessionCase& one,
+                                 const sessions::Requirement& limits, QWidget* parent)
     : QDialog(parent),
       former_end_effector_(one.camera_from_end_effector.value_or(Pose())),
-      former_requirement_(one.requirement.value_or(sessions::Requirement())),
+      former_requirement_(one.requirement),
+      limits_(limits),
       former_symmetries_(one.symmetries) {
   ui_.setupUi(this);
+  if (!former_requirement_) ui_.requirement->setTitle(tr("Requirement, assumed from the preset"));
   ui_.endEffectorStated->setChecked(one.camera_from_end_effector.has_value());
   QDoubleSpinBox* const place[] = {ui_.endEffectorX, ui_.endEffectorY, ui_.endEffectorZ};
   for (std::size_t axis = 0; axis < 3; ++axis)
     place_m_[axis] = {*place[axis], 1e3,
                       former_end_effector_.translation_m[static_cast<Eigen::Index>(axis)]};
-  normal_mm_ = {*ui_.normal, 1.0, former_requirement_.normal_mm};
-  lateral_mm_ = {*ui_.lateral, 1.0, former_requirement_.lateral_mm};
-  rotation_deg_ = {*ui_.rotation, 1.0, former_requirement_.rotation_deg};
+  normal_mm_ = {*ui_.normal, 1.0, limits_.normal_mm};
+  lateral_mm_ = {*ui_.lateral, 1.0, limits_.lateral_mm};
+  rotation_deg_ = {*ui_.rotation, 1.0, limits_.rotation_deg};
   ui_.symmetries->setText(fromText(sessions::symmetriesText(former_symmetries_)));
   connect(ui_.symmetries, &QLineEdit::textChanged, this, &JudgementDialog::readSymmetries);
   readSymmetries();
@@ -94,7 +104,8 @@ std::optional<Pose> JudgementDialog::cameraFromEndEffector() const {
 
 std::optional<sessions::Requirement> JudgementDialog::requirement() const {
   const sessions::Requirement stated{normal_mm_.value(), lateral_mm_.value(), rotation_deg_.value(),
-                                     former_requirement_.projection_px};
+                                     limits_.projection_px};
+  if (stated == limits_) return former_requirement_;
   return stated == sessions::Requirement() ? std::nullopt : std::optional(stated);
 }
 

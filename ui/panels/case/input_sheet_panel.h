@@ -20,6 +20,8 @@ namespace boresight::ui {
 
 /// Asks for the uncertainty of the mesh's scale and the camera's calibration, which one image
 /// cannot determine. Values that are not stated are assumed; the boxes show the assumed ones.
+/// Checking a group states all its values as shown. In a group that was checked before, a value
+/// stays stated or assumed until it is changed.
 class InputSigmasDialog : public QDialog {
   Q_OBJECT
 
@@ -36,20 +38,24 @@ class InputSigmasDialog : public QDialog {
   StatedNumber mesh_scale_;  ///< relative
   StatedNumber focal_;       ///< relative
   StatedNumber centre_px_;
+  bool camera_toggled_ = false;  ///< the operator has checked or cleared the camera's group
 };
 
-/// Asks for the point at which a pose is judged, its allowed errors, and the station's symmetries. A
-/// limit that is not stated is shown as such, and stays so unless it is given a value. Cannot be
-/// accepted while the text of the symmetries has no meaning.
+/// Asks for the point at which a pose is judged, its allowed errors, and the station's symmetries.
+/// The limits of a case's own requirement replace all those of the preset: of a case without one
+/// the preset's are shown, and the first change states all of them. Cannot be accepted while the
+/// text of the symmetries has no meaning.
 class JudgementDialog : public QDialog {
   Q_OBJECT
 
  public:
-  JudgementDialog(const sessions::SessionCase& session_case, QWidget* parent);
+  /// `limits`: those that apply to the case, requirementOf() it.
+  JudgementDialog(const sessions::SessionCase& session_case, const sessions::Requirement& limits,
+                  QWidget* parent);
 
   /// With its former orientation; empty: poses are judged at the camera.
   std::optional<Pose> cameraFromEndEffector() const;
-  /// A requirement in pixels is kept.
+  /// Empty: that of the preset. A limit in pixels is kept.
   std::optional<sessions::Requirement> requirement() const;
   /// The former ones where the text is unchanged.
   const sessions::Symmetries& symmetries() const { return symmetries_; }
@@ -58,7 +64,8 @@ class JudgementDialog : public QDialog {
   void readSymmetries();
 
   Pose former_end_effector_;
-  sessions::Requirement former_requirement_;
+  std::optional<sessions::Requirement> former_requirement_;
+  sessions::Requirement limits_;
   sessions::Symmetries former_symmetries_;
   sessions::Symmetries symmetries_;
   Ui::JudgementDialog ui_;

@@ -84,8 +84,10 @@ TrendsPanel::TrendsPanel(Document& document) : document_(document) {
   take({});
 }
 
+/// Files that are chosen again may have changed.
 void TrendsPanel::setEarlier(std::vector<std::filesystem::path> files) {
   earlier_ = std::move(files);
+  read_files_.clear();
   follow();
 }
 

@@ -40,7 +40,7 @@ class TrendsPanel : public QWidget {
   explicit TrendsPanel(Document& document);
 
   const TrendsModel& model() const { return model_; }
-  /// Sessions that come before the shown one, in the order of time.
+  /// Sessions that come before the shown one, in the order of time. They are read again.
   void setEarlier(std::vector<std::filesystem::path> files);
   bool isBusy() const { return reader_.isBusy(); }
 

@@ -68,12 +68,12 @@ TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
   auto* focal = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"));
   EXPECT_NEAR(focal->value(), 0.02, 1e-12) << "what is assumed, in percent";
   dialog.findChild<QGroupBox*>(QStringLiteral("cameraStated"))->setChecked(true);
+  EXPECT_EQ(dialog.calibrationSigma(), (sessions::StatedCalibration{2e-4, 0.5}))
+      << "both as shown, by the group alone";
   focal->setValue(0.05);
   ASSERT_TRUE(dialog.calibrationSigma());
   EXPECT_NEAR(dialog.calibrationSigma()->focal_relative.value_or(0.0), 5e-4, 1e-12);
-  EXPECT_FALSE(dialog.calibrationSigma()->principal_point_px) << "nobody has stated it";
-  focal->setValue(0.02);
-  EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5) << "both, by the group alone";
+  EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
 }
 
 TEST(InputSigmasDialogTest, UnchangedMember_KeepsItsExactValueAndStaysAssumed) {
@@ -93,12 +93,27 @@ TEST(InputSigmasDialogTest, UnchangedMember_KeepsItsExactValueAndStaysAssumed) {
   EXPECT_EQ(dialog.calibrationSigma(), (sessions::StatedCalibration{0.0025, 1.0 / 3.0}));
 }
 
+TEST(InputSigmasDialogTest, TickingTheGroupAgain_StatesTheAssumedMemberAsShown) {
+  sessions::SessionCase session_case;
+  session_case.camera.width = session_case.camera.height = 2048;
+  session_case.calibration_sigma = sessions::StatedCalibration{std::nullopt, 1.0 / 3.0};
+  InputSigmasDialog dialog(session_case, nullptr);
+  EXPECT_TRUE(dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"))
+                  ->toolTip()
+                  .startsWith(QStringLiteral("Assumed")));
+  auto* group = dialog.findChild<QGroupBox*>(QStringLiteral("cameraStated"));
+  group->setChecked(false);
+  EXPECT_FALSE(dialog.calibrationSigma());
+  group->setChecked(true);
+  EXPECT_EQ(dialog.calibrationSigma(), (sessions::StatedCalibration{2e-4, 1.0 / 3.0}));
+}
+
 TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
   sessions::SessionCase session_case;
   session_case.requirement.emplace().projection_px = 5.0;
   const Pose exact{Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0), {0.0, 1.0 / 3.0, 0.39}};
   session_case.camera_from_end_effector = exact;
-  JudgementDialog dialog(session_case, nullptr);
+  JudgementDialog dialog(session_case, *session_case.requirement, nullptr);
   EXPECT_EQ(dialog.cameraFromEndEffector(), exact) << "unchanged to the bit";
   EXPECT_EQ(dialog.requirement(), session_case.requirement);
   dialog.findChild<QDoubleSpinBox*>(QStringLiteral("endEffectorZ"))->setValue(410.0);
@@ -107,24 +122,43 @@ TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
   EXPECT_EQ(dialog.cameraFromEndEffector()->rotation.w(), 0.8);
   dialog.findChild<QDoubleSpinBox*>(QStringLiteral("lateral"))->setValue(0.4);
   EXPECT_EQ(dialog.requirement(), (sessions::Requirement{{}, 0.4, {}, 5.0}))
-      << "the other limits stay unstated";
+      << "the other limits stay without";
   dialog.findChild<QGroupBox*>(QStringLiteral("endEffectorStated"))->setChecked(false);
   EXPECT_FALSE(dialog.cameraFromEndEffector());
 }
 
-TEST(JudgementDialogTest, LimitsThatAreNotChanged_KeepTheirExactValuesOrStayUnstated) {
+TEST(JudgementDialogTest, LimitsThatAreNotChanged_KeepTheirExactValuesOrStayNoLimits) {
   sessions::SessionCase session_case;
   session_case.requirement = {1.0 / 3.0, std::nullopt, 0.0004, std::nullopt};
-  JudgementDialog dialog(session_case, nullptr);
+  JudgementDialog dialog(session_case, *session_case.requirement, nullptr);
   auto* lateral = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("lateral"));
-  EXPECT_EQ(lateral->text(), QStringLiteral("not stated"));
+  EXPECT_EQ(lateral->text(), QStringLiteral("no limit"));
   EXPECT_EQ(dialog.requirement(), session_case.requirement);
   lateral->setValue(0.5);
   EXPECT_EQ(dialog.requirement(), (sessions::Requirement{1.0 / 3.0, 0.5, 0.0004, {}}));
   lateral->setValue(0.0);
   dialog.findChild<QDoubleSpinBox*>(QStringLiteral("normal"))->setValue(0.0);
   EXPECT_EQ(dialog.requirement(), (sessions::Requirement{{}, {}, 0.0004, {}})) << "withdrawn";
-  EXPECT_FALSE(JudgementDialog(sessions::SessionCase(), nullptr).requirement());
+  auto* rotation = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("rotation"));
+  EXPECT_EQ(rotation->text(), QStringLiteral("0.0004 deg")) << "not rounded to no limit";
+  rotation->setValue(0.0);
+  EXPECT_FALSE(dialog.requirement()) << "that of the preset applies";
+}
+
+/// A requirement of a case replaces that of the preset as a whole.
+TEST(JudgementDialogTest, FirstChangedLimit_StatesAllThatAppliedBefore) {
+  const sessions::Requirement preset{0.4, 1.0 / 3.0, 0.25, 5.0};
+  JudgementDialog dialog(sessions::SessionCase(), preset, nullptr);
+  auto* normal = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("normal"));
+  EXPECT_EQ(normal->value(), 0.4) << "as it applies";
+  EXPECT_TRUE(dialog.findChild<QGroupBox*>(QStringLiteral("requirement"))
+                  ->title()
+                  .contains(QStringLiteral("assumed")));
+  EXPECT_FALSE(dialog.requirement()) << "nothing is changed";
+  normal->setValue(0.3);
+  EXPECT_EQ(dialog.requirement(), (sessions::Requirement{0.3, 1.0 / 3.0, 0.25, 5.0}));
+  normal->setValue(0.4);
+  EXPECT_FALSE(dialog.requirement());
 }
 
 TEST(UncertaintyDialogTest, FiguresThatAreNotChanged_KeepTheirExactValues) {
@@ -142,7 +176,7 @@ TEST(JudgementDialogTest, SymmetriesAreReadFromText_AndStayExactWhereItIsUnchang
   sessions::SessionCase session_case;
   session_case.symmetries = sessions::symmetriesIn("z at 0.1 0 0");
   session_case.symmetries.continuous[0].point_m.y() = 1e-12;  // not in the text
-  JudgementDialog dialog(session_case, nullptr);
+  JudgementDialog dialog(session_case, sessions::Requirement(), nullptr);
   EXPECT_EQ(dialog.symmetries(), session_case.symmetries);
   auto* text = dialog.findChild<QLineEdit*>(QStringLiteral("symmetries"));
   const QPushButton* accept = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);

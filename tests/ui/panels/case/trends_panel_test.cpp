@@ -42,6 +42,9 @@ TEST_F(TrendsPanelTest, ListsTheConvergedRunsOfThisAndEarlierSessions_NamesAnUnr
   panel().setEarlier({folder_.path() / "missing.boresight.json"});
   ASSERT_TRUE(shows(0));
   EXPECT_TRUE(test::has(note(), "missing.boresight.json"));
+  std::filesystem::copy_file(earlier, folder_.path() / "missing.boresight.json");
+  panel().setEarlier({folder_.path() / "missing.boresight.json"});
+  EXPECT_TRUE(shows(2)) << "it is read again";
 }
 
 TEST(TrendsModel, MarksWhatStandsOut) {
