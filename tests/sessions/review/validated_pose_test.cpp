@@ -562,7 +562,7 @@ class WholeCase : public ValidatedPose {
     left.ignore_strokes.push_back({.radius_px = 2.0, .points = {{3.0, 4.0}}, .name = "screw"});
     left.onboard_record = inputOf("a.whsr");
     left.rig = sessions::Rig{"rig", Pose()};
-    left.symmetries = sessions::symmetriesIn("z at 0.1 0.2 0.3; y 180");
+    left.symmetries = sessions::symmetriesIn("z at 0.01 0.02 0.03; z 180");
     left.mesh_scale_sigma = 0.0004;
     left.calibration_sigma = sessions::StatedCalibration{0.0003, 0.4};
     left.requirement = sessions::Requirement{0.5, 0.5, 0.3, {}};
