@@ -42,8 +42,7 @@ std::int32_t grayAt(const std::uint8_t* origin, std::ptrdiff_t stride, std::int3
 
 }  // namespace
 
-EdgeSearch::EdgeSearch(double sigma_px, double step_px)
-    : step_px_(step_px), sigma_px_(static_cast<float>(sigma_px)) {
+EdgeSearch::EdgeSearch(double sigma_px, double step_px) : step_px_(step_px), sigma_px_(sigma_px) {
   taps_ = std::clamp(static_cast<int>(3.0 * sigma_px / step_px_ + 0.5), 1, kMaxTaps);
   double ramp = 0.0;
   std::array<double, kMaxTaps> weights{};
@@ -105,8 +104,7 @@ void EdgeSearch::derive(const Profile& profile, int count, Profile& slope) const
 /// Of a Gaussian edge whose derivative has this height and second difference at its peak.
 double EdgeSearch::blurOf_px(double strength, double bend) const {
   if (!(bend < 0.0)) return kMostBlur_px;
-  const double squared_px2 =
-      -strength * step_px_ * step_px_ / bend - static_cast<double>(sigma_px_ * sigma_px_);
+  const double squared_px2 = -strength * step_px_ * step_px_ / bend - sigma_px_ * sigma_px_;
   return squared_px2 > 0.0 ? std::min(std::sqrt(squared_px2), kMostBlur_px) : 0.0;
 }
 

@@ -43,13 +43,12 @@ class EdgeSearch {
   bool sample(const ImageView& image, const Eigen::Vector2d& predicted_px,
               const Eigen::Vector2d& normal, int reach, Profile& profile) const;
   void derive(const Profile& profile, int count, Profile& slope) const;
-
   double blurOf_px(double strength, double bend) const;
 
   std::array<float, kMaxTaps> kernel_{};  ///< one side; antisymmetric; for the profile's unit
   double step_px_ = kFineStep_px;
+  double sigma_px_ = 1.0;  ///< of the derivative
   int taps_ = 1;
-  float sigma_px_ = 1.0F;  ///< of the derivative
 };
 
 }  // namespace boresight
