@@ -8,8 +8,10 @@
 #include "app/batch_output.h"
 #include "app/case_arguments.h"
 #include "app/commands.h"
+#include "sessions/io/datasets/symmetries.h"
 #include "sessions/io/files/errors.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/input_check.h"
 #include "sessions/session/stated_inputs.h"
 #include "sessions/session/views_run.h"
 #include "sessions/text/plain_text.h"
@@ -116,7 +118,13 @@ void takeStated(sessions::SessionDocument& document, const std::vector<std::stri
                                       sessions::readFrameTransforms(arguments.frames.files)};
   if (stated.empty()) return;
   sessions::Session next = document.session();
-  for (const std::string& id : case_ids) next = sessions::withStated(next, id, stated);
+  for (const std::string& id : case_ids) {
+    if (stated.symmetries && !stated.symmetries->empty())
+      sessions::requireInPlace(*stated.symmetries,
+                               matchedBounds(sessions::readKnownScene(*next.findCase(id)).view()),
+                               "case " + id);
+    next = sessions::withStated(next, id, stated);
+  }
   document.apply(next, "State end effector, requirement, symmetries, frames");
 }
 

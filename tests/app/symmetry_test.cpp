@@ -156,6 +156,13 @@ TEST_P(SymmetricObject, WithoutADeclaration_FailsTheNamedChecks) {
   EXPECT_EQ(fails("Edge-coverage sensitivity"), is_can) << checked.out;
 }
 
+TEST_P(SymmetricObject, TurnThatMovesTheStation_IsRefusedAndNotStated) {
+  const std::string before = runWhs({"info", session_}, 0).out;
+  const ProgramRun refused = runWhs({"run", session_, "--symmetry", "z at 0 100 0"}, 3);
+  EXPECT_THAT(refused.err, HasSubstr("state a point on the axis, in m"));
+  EXPECT_EQ(runWhs({"info", session_}, 0).out, before);
+}
+
 INSTANTIATE_TEST_SUITE_P(Objects, SymmetricObject, ::testing::Values(&can, &box),
                          [](const auto& info) { return info.index == 0 ? "Can" : "Box"; });
 
