@@ -81,18 +81,14 @@ void CaseArguments::addSymmetryTo(CLI::App& command) {
 
 std::optional<sessions::Symmetries> CaseArguments::statedSymmetries() const {
   if (symmetries.empty()) return std::nullopt;
-  sessions::Symmetries all;
+  std::string text;
+  for (const std::string& each : symmetries) text += (text.empty() ? "" : ";") + each;
   try {
-    for (const std::string& text : symmetries) {
-      const sessions::Symmetries stated = sessions::symmetriesIn(text);
-      all.discrete.insert(all.discrete.end(), stated.discrete.begin(), stated.discrete.end());
-      all.continuous.insert(all.continuous.end(), stated.continuous.begin(),
-                            stated.continuous.end());
-    }
+    return sessions::symmetriesIn(text);
   } catch (const sessions::InputError& error) {
-    throw CLI::ValidationError("--symmetry", error.field() + ": " + error.reason());
+    const std::string item = error.field().empty() ? "" : error.field() + ": ";
+    throw CLI::ValidationError("--symmetry", item + error.reason());
   }
-  return all;
 }
 
 void CaseArguments::addUncertaintyTo(CLI::App& command) {

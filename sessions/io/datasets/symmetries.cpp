@@ -110,8 +110,8 @@ void close(const std::vector<Pose>& steps, std::vector<Pose>& turns) {
       if (isSame(both, Pose()) || findSame(turns, both) != nullptr) continue;
       if (turns.size() >= static_cast<std::size_t>(kMostTurns))
         throw InputError("symmetries", "",
-                         "their turns after one another have no end: check the axes, and the "
-                         "points on them");
+                         "their turns after one another are more than 360: check the axes, "
+                         "which may need more digits, and the points on them");
       turns.push_back(both);
     }
 }
